@@ -1,0 +1,102 @@
+// World: a scene in motion. Every collision is found at its true time and resolved in time order.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <carom/core/scene.hpp>
+
+namespace carom {
+
+enum class CollisionKind { kBall, kWall };
+
+/// One resolved collision. `j` is a ball's id for kBall (i < j, or j is static), a wall's index for kWall; the domain's sides
+/// are numbered after the scene's walls: left, right, bottom, top.
+struct Collision {
+    double time;
+    CollisionKind kind;
+    std::uint32_t i;
+    std::uint32_t j;
+    Vec2 point;      ///< where the two surfaces meet
+    Vec2 normal;     ///< unit vector towards ball i
+    double impulse;  ///< given to ball i along the normal, mass * length / time
+};
+
+struct WorldOptions {
+    int threads = 0;       ///< 0: as many as the machine offers
+    double cell_size = 0;  ///< of the grid; 0: chosen from the scene. Changes speed, never a bit of the result
+};
+
+struct Counts {
+    std::uint64_t ball_collisions = 0;
+    std::uint64_t wall_collisions = 0;
+    std::uint64_t events = 0;  ///< collisions, cell crossings, stale predictions and field updates
+};
+
+/// Something that must not be: what, where, by how much.
+struct Violation {
+    std::string what;
+};
+
+/// N x 2, one row a ball, in the order of the ids.
+using PlaneVectors = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+class World {
+   public:
+    /// Checks the scene, places its fills, finds every ball's first event. Throws SceneError on a scene that cannot be simulated.
+    explicit World(const Scene& scene, const WorldOptions& options = {});
+    ~World();
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+
+    /// Resolves all events up to and including the given time, which must not lie in the past (std::invalid_argument).
+    void advance_to(double time);
+    /// advance_to(time() + dt)
+    void step(double dt);
+
+    [[nodiscard]] double time() const;
+    [[nodiscard]] std::size_t ball_count() const;
+    [[nodiscard]] std::size_t wall_count() const;
+    [[nodiscard]] int threads() const;
+    [[nodiscard]] double cell_size() const;
+    [[nodiscard]] double contact_time() const;
+    /// The box that is simulated; where the scene has none, the one around what was there at the start.
+    [[nodiscard]] const Domain& domain() const;
+
+    /// State at time(); reading anchors nothing. Periodic positions lie inside the box.
+    [[nodiscard]] PlaneVectors positions() const;
+    [[nodiscard]] PlaneVectors velocities() const;
+    /// Every ball at time(), in the order of the ids: positions, velocities and what does not change.
+    [[nodiscard]] std::vector<Ball> balls() const;
+
+    [[nodiscard]] Counts counts() const;
+    [[nodiscard]] double kinetic_energy() const;
+    /// Kinetic plus potential in the scene's gravity and the balls' own accelerations.
+    [[nodiscard]] double energy() const;
+    [[nodiscard]] Vec2 momentum() const;
+    /// Sum over the ball collisions of r_ij . impulse, with r_ij the centres' offset: mass * length^2 / time^2 * time.
+    [[nodiscard]] double virial() const;
+    /// PA / NkT from the virial; none unless the box is periodic on both axes and time has passed.
+    [[nodiscard]] std::optional<double> compressibility_factor() const;
+    /// The deepest penetration of two balls, or a ball and a wall, at time(), in units of the radii's sum; 0 where none overlaps.
+    [[nodiscard]] double max_overlap() const;
+    /// Equal exactly when all positions and velocities at time() are bit-identical.
+    [[nodiscard]] std::uint64_t state_hash() const;
+    /// Every broken invariant; empty in a sound world. Costs a pass over all pairs of neighbours.
+    [[nodiscard]] std::vector<Violation> validate() const;
+
+    /// Called for every collision in the order of events. An empty function turns it off.
+    void on_collision(std::function<void(const Collision&)> listener);
+
+   private:
+    class State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace carom
