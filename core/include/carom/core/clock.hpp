@@ -21,21 +21,27 @@ struct Time {
 };
 
 /// A time that never comes.
-inline constexpr Time kNever{std::numeric_limits<std::int32_t>::max(), std::numeric_limits<double>::infinity()};
+inline constexpr Time kNever{std::numeric_limits<std::int32_t>::max(),
+                             std::numeric_limits<double>::infinity()};
 
-/// Adds and subtracts times. The epoch's length is a power of two, so that multiples of it are exact. All members are pure functions.
+/// Adds and subtracts times. The epoch's length is a power of two, so that multiples of it are exact. All
+/// members are pure functions.
 class Clock {
-   public:
+ public:
     Clock() = default;
-    /// The epoch is the largest power of two that is at most `length_hint`. Precondition: length_hint is finite and > 0.
-    explicit Clock(double length_hint) : length_(std::exp2(std::floor(std::log2(length_hint)))), inverse_(1 / length_) {}
+    /// The epoch is the largest power of two that is at most `length_hint`. Precondition: length_hint is
+    /// finite and > 0.
+    explicit Clock(double length_hint)
+        : length_(std::exp2(std::floor(std::log2(length_hint)))), inverse_(1 / length_) {}
 
     [[nodiscard]] double epoch_length() const { return length_; }
 
     /// later - earlier. Exact to one rounding when both lie in one epoch.
     [[nodiscard]] double difference(const Time& later, const Time& earlier) const {
         const double within = later.offset - earlier.offset;
-        return later.epoch == earlier.epoch ? within : within + length_ * (double(later.epoch) - double(earlier.epoch));
+        return later.epoch == earlier.epoch
+                   ? within
+                   : within + length_ * (double(later.epoch) - double(earlier.epoch));
     }
 
     /// The time `duration` >= 0 after `t`; kNever when that is beyond the last epoch.
@@ -53,7 +59,7 @@ class Clock {
     [[nodiscard]] Time from_seconds(double seconds) const { return after({}, seconds); }
     [[nodiscard]] double to_seconds(const Time& t) const { return since_epoch(t, 0); }
 
-   private:
+ private:
     [[nodiscard]] Time normalised(std::int32_t epoch, double offset) const {
         const double epochs = std::floor(offset * inverse_);
         if (!(double(epoch) + epochs < double(kNever.epoch))) return kNever;

@@ -1,6 +1,6 @@
-// What a user asks for: balls, walls, forces and the rules between them. Units are the user's own, but one set throughout
-// (lengths, times and masses; speeds, accelerations and energies follow). io reads and writes it, broadphase turns its fills into
-// balls, parallel's World runs it.
+// What a user asks for: balls, walls, forces and the rules between them. Units are the user's own, but one
+// set throughout (lengths, times and masses; speeds, accelerations and energies follow). io reads and writes
+// it, broadphase turns its fills into balls, parallel's World runs it.
 #pragma once
 
 #include <array>
@@ -20,7 +20,8 @@ enum class RestitutionRule { kMin, kMax, kProduct, kMean, kGeometric };
 /// What happens at a pair of opposite sides of the domain.
 enum class Boundary { kWall, kPeriodic, kOpen };
 
-/// A disc. `acceleration` is its own, added to the scene's gravity. A static ball never moves and has, in effect, infinite mass.
+/// A disc. `acceleration` is its own, added to the scene's gravity. A static ball never moves and has, in
+/// effect, infinite mass.
 struct Ball {
     Vec2 position = Vec2::Zero();
     Vec2 velocity = Vec2::Zero();
@@ -38,7 +39,8 @@ struct Wall {
     double restitution = 1;
 };
 
-/// Pulls a ball at distance d with acceleration k d / (d^2 + s^2)^(3/2) along the line of centres; k < 0 pushes.
+/// Pulls a ball at distance d with acceleration k d / (d^2 + s^2)^(3/2) along the line of centres; k < 0
+/// pushes.
 struct Attractor {
     Vec2 position = Vec2::Zero();
     double strength = 0;
@@ -58,8 +60,9 @@ struct Domain {
     double restitution = 1;
 };
 
-/// Balls to be placed at random without overlap. At least one of count and packing_fraction is given; with both the radius follows
-/// (the radii are scaled in common). Packing is the discs' area over the region's area.
+/// Balls to be placed at random without overlap. At least one of count and packing_fraction is given; with
+/// both the radius follows (the radii are scaled in common). Packing is the discs' area over the region's
+/// area.
 struct Fill {
     std::optional<std::uint64_t> count;
     std::optional<double> packing_fraction;
@@ -68,7 +71,8 @@ struct Fill {
     std::optional<double> mass;     ///< every ball's mass; at most one of mass and density
     std::optional<double> density;  ///< mass = density * pi * radius^2
     double restitution = 1;
-    double temperature = 0;  ///< variance of a velocity component times the mass; the total momentum is removed
+    double temperature =
+        0;  ///< variance of a velocity component times the mass; the total momentum is removed
     std::uint64_t seed = 1;
     std::optional<Box> region;  ///< the domain's box where absent
 };
@@ -78,8 +82,9 @@ struct Scene {
     std::optional<Domain> domain;  ///< where absent: open, around everything that is there
     Vec2 gravity = Vec2::Zero();
     RestitutionRule restitution_rule = RestitutionRule::kMin;
-    std::optional<double> contact_time;  ///< of the TC model; where absent it is derived, see default_contact_time
-    double speed_factor = 1;             ///< whole velocity after a hit on a wall or a static ball, times this
+    std::optional<double>
+        contact_time;         ///< of the TC model; where absent it is derived, see default_contact_time
+    double speed_factor = 1;  ///< whole velocity after a hit on a wall or a static ball, times this
     std::vector<Ball> balls;
     std::vector<Fill> fills;
     std::vector<Wall> walls;
@@ -88,20 +93,22 @@ struct Scene {
     double until = 0;              ///< end of the simulation, from time 0
 };
 
-/// A scene that cannot be simulated: where it is wrong (`balls[17].radius`) and what must hold there (`must be > 0, is -1`).
+/// A scene that cannot be simulated: where it is wrong (`balls[17].radius`) and what must hold there (`must
+/// be > 0, is -1`).
 class SceneError : public std::runtime_error {
-   public:
+ public:
     SceneError(std::string place, const std::string& rule)
         : std::runtime_error(place.empty() ? rule : place + ": " + rule), place_(std::move(place)) {}
     [[nodiscard]] const std::string& place() const { return place_; }
 
-   private:
+ private:
     std::string place_;
 };
 
-/// Checks every rule that needs no search among the balls: finite numbers, positive radii and masses, restitutions in [0, 1], walls
-/// with a length, a domain with an area, balls inside walled and periodic sides (centre at least a radius inside a walled side, centre
-/// inside a periodic one), fills that say how many. Throws SceneError at the first fault.
+/// Checks every rule that needs no search among the balls: finite numbers, positive radii and masses,
+/// restitutions in [0, 1], walls with a length, a domain with an area, balls inside walled and periodic sides
+/// (centre at least a radius inside a walled side, centre inside a periodic one), fills that say how many.
+/// Throws SceneError at the first fault.
 void check(const Scene& scene);
 
 }  // namespace carom

@@ -16,8 +16,8 @@ namespace carom {
 
 enum class CollisionKind { kBall, kWall };
 
-/// One resolved collision. `j` is a ball's id for kBall (i < j, or j is static), a wall's index for kWall; the domain's sides
-/// are numbered after the scene's walls: left, right, bottom, top.
+/// One resolved collision. `j` is a ball's id for kBall (i < j, or j is static), a wall's index for kWall;
+/// the domain's sides are numbered after the scene's walls: left, right, bottom, top.
 struct Collision {
     double time;
     CollisionKind kind;
@@ -29,8 +29,9 @@ struct Collision {
 };
 
 struct WorldOptions {
-    int threads = 0;       ///< 0: as many as the machine offers
-    double cell_size = 0;  ///< of the grid; 0: chosen from the scene. Changes speed, never a bit of the result
+    int threads = 0;  ///< 0: as many as the machine offers
+    double cell_size =
+        0;  ///< of the grid; 0: chosen from the scene. Changes speed, never a bit of the result
 };
 
 struct Counts {
@@ -48,14 +49,16 @@ struct Violation {
 using PlaneVectors = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 class World {
-   public:
-    /// Checks the scene, places its fills, finds every ball's first event. Throws SceneError on a scene that cannot be simulated.
+ public:
+    /// Checks the scene, places its fills, finds every ball's first event. Throws SceneError on a scene that
+    /// cannot be simulated.
     explicit World(const Scene& scene, const WorldOptions& options = {});
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
 
-    /// Resolves all events up to and including the given time, which must not lie in the past (std::invalid_argument).
+    /// Resolves all events up to and including the given time, which must not lie in the past
+    /// (std::invalid_argument).
     void advance_to(double time);
     /// advance_to(time() + dt)
     void step(double dt);
@@ -80,11 +83,13 @@ class World {
     /// Kinetic plus potential in the scene's gravity and the balls' own accelerations.
     [[nodiscard]] double energy() const;
     [[nodiscard]] Vec2 momentum() const;
-    /// Sum over the ball collisions of r_ij . impulse, with r_ij the centres' offset: mass * length^2 / time^2 * time.
+    /// Sum over the ball collisions of r_ij . impulse, with r_ij the centres' offset: mass * length^2 /
+    /// time^2 * time.
     [[nodiscard]] double virial() const;
     /// PA / NkT from the virial; none unless the box is periodic on both axes and time has passed.
     [[nodiscard]] std::optional<double> compressibility_factor() const;
-    /// The deepest penetration of two balls, or a ball and a wall, at time(), in units of the radii's sum; 0 where none overlaps.
+    /// The deepest penetration of two balls, or a ball and a wall, at time(), in units of the radii's sum; 0
+    /// where none overlaps.
     [[nodiscard]] double max_overlap() const;
     /// Equal exactly when all positions and velocities at time() are bit-identical.
     [[nodiscard]] std::uint64_t state_hash() const;
@@ -94,7 +99,7 @@ class World {
     /// Called for every collision in the order of events. An empty function turns it off.
     void on_collision(std::function<void(const Collision&)> listener);
 
-   private:
+ private:
     class State;
     std::unique_ptr<State> state_;
 };

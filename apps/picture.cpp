@@ -1,0 +1,97 @@
+// A picture's view, its speed scale, and the order of its layers.
+#include "picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "picture_parts.hpp"
+
+namespace carom::app {
+namespace {
+
+constexpr double kViewMargin = 0.03;  // of the longer side, around a scene without a domain
+
+void include_disc(Box& box, const Vec2& centre, double radius) {
+    if (!centre.allFinite()) return;
+    box.min = box.min.cwiseMin(Vec2(centre.array() - radius));
+    box.max = box.max.cwiseMax(Vec2(centre.array() + radius));
+}
+
+Box bounding_box(const PictureContent& content) {
+    constexpr double kHuge = std::numeric_limits<double>::infinity();
+    Box box{{kHuge, kHuge}, {-kHuge, -kHuge}};
+    for (const Ball& ball : content.balls) include_disc(box, ball.position, ball.radius);
+    for (const Wall& wall : content.walls) {
+        include_disc(box, wall.from, 0);
+        include_disc(box, wall.to, 0);
+    }
+    for (const Attractor& attractor : content.attractors) {
+        include_disc(box, attractor.position, attractor.softening);
+    }
+    return box;
+}
+
+}  // namespace
+
+Box view_of(const PictureContent& content) {
+    if (content.domain) return content.domain->box;
+    Box box = bounding_box(content);
+    if (!(box.min.x() <= box.max.x())) return {{-1, -1}, {1, 1}};  // nothing there
+    const Vec2 extent = box.max - box.min;
+    const double longer = extent.maxCoeff();
+    const double margin = longer > 0 ? kViewMargin * longer : 1;
+    // A row of tiny things still gets a band to stand in.
+    const Vec2 grow = (Vec2(extent.array() + 2 * margin).cwiseMax(longer / 8) - extent) / 2;
+    return {box.min - grow, box.max + grow};
+}
+
+double top_speed(const std::vector<Ball>& balls) {
+    std::vector<double> speeds;
+    speeds.reserve(balls.size());
+    for (const Ball& ball : balls) {
+        if (!ball.is_static) speeds.push_back(std::hypot(ball.velocity.x(), ball.velocity.y()));
+    }
+    if (speeds.empty()) return 0;
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * double(speeds.size()))) - 1;
+    std::nth_element(speeds.begin(), speeds.begin() + rank, speeds.end());
+    return speeds[static_cast<std::size_t>(rank)];
+}
+
+std::size_t count_outside(const std::vector<Ball>& balls, const Box& view) {
+    const auto is_outside = [&view](const Ball& ball) {
+        return ball.position.x() + ball.radius < view.min.x() ||
+               ball.position.x() - ball.radius > view.max.x() ||
+               ball.position.y() + ball.radius < view.min.y() ||
+               ball.position.y() - ball.radius > view.max.y();
+    };
+    return static_cast<std::size_t>(std::count_if(balls.begin(), balls.end(), is_outside));
+}
+
+void draw_picture(cairo_t* context, const PictureContent& content, const PictureLayout& layout,
+                  double pixels_per_unit) {
+    const double fastest = top_speed(content.balls);
+    const double speed_scale = fastest > 0 ? fastest : 1;
+    const bool has_faster = std::any_of(content.balls.begin(), content.balls.end(), [&](const Ball& ball) {
+        return !ball.is_static && std::hypot(ball.velocity.x(), ball.velocity.y()) > speed_scale;
+    });
+
+    draw_ground(context, layout);
+    cairo_save(context);
+    cairo_rectangle(context, layout.left, layout.top, layout.right - layout.left, layout.bottom - layout.top);
+    cairo_clip(context);
+    draw_attractors(context, content, layout);
+    if (content.balls.size() <= kVectorBalls) {
+        draw_balls_singly(context, content, layout, speed_scale);
+    } else {
+        draw_balls_gathered(context, content, layout, speed_scale, pixels_per_unit);
+    }
+    draw_walls(context, content, layout);
+    cairo_restore(context);
+    draw_frame(context, content, layout);
+    draw_legend(context, layout, speed_scale, has_faster);
+    draw_title(context, content, layout);
+}
+
+}  // namespace carom::app

@@ -1,0 +1,25 @@
+// Pictures as bytes of a PNG or SVG file.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "picture.hpp"
+
+namespace carom::app {
+
+enum class PictureFormat { kPng, kSvg };
+
+/// The format that the path's extension names, in any case of letters. Throws std::invalid_argument that
+/// names the extension and the known ones.
+[[nodiscard]] PictureFormat picture_format(const std::string& path);
+
+/// "1200x900". Throws std::invalid_argument that says what is allowed.
+[[nodiscard]] PictureSize parse_picture_size(const std::string& text);
+
+/// The file's bytes; where no size is given, default_size of the view. Throws std::runtime_error when cairo
+/// cannot (out of memory).
+[[nodiscard]] std::string render_picture(const PictureContent& content, PictureFormat format,
+                                         const std::optional<PictureSize>& size = std::nullopt);
+
+}  // namespace carom::app

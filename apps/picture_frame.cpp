@@ -1,0 +1,233 @@
+// What stands around and over the balls: ground, walls, frame with ticks, legend, title.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "cairo_handles.hpp"
+#include "colour_map.hpp"
+#include "picture_palette.hpp"
+#include "picture_parts.hpp"
+
+namespace carom::app {
+namespace {
+
+enum class Align { kLeft, kCentre, kRight };
+
+void select_font(cairo_t* context, double size, bool bold = false) {
+    cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(context, size);
+}
+
+double text_width(cairo_t* context, const std::string& text) {
+    cairo_text_extents_t extents;
+    cairo_text_extents(context, text.c_str(), &extents);
+    return extents.x_advance;
+}
+
+void draw_text(cairo_t* context, const std::string& text, double x, double baseline, Align align) {
+    const double width = text_width(context, text);
+    const double shift = align == Align::kLeft ? 0 : align == Align::kCentre ? width / 2 : width;
+    cairo_move_to(context, x - shift, baseline);
+    cairo_show_text(context, text.c_str());
+}
+
+// The length of the UTF-8 sequence at `place`, 0 where there is none.
+std::size_t sequence_length(const std::string& text, std::size_t place) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+    };
+    const unsigned lead = byte(place);
+    if (lead < 0x80U) return 1;
+    const std::size_t length = lead >= 0xC2U && lead < 0xE0U   ? 2
+                               : (lead & 0xF0U) == 0xE0U       ? 3
+                               : lead >= 0xF0U && lead < 0xF5U ? 4
+                                                               : 0;
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(place + i) & 0xC0U) != 0x80U) return 0;
+    }
+    // The second byte tells overlong forms, surrogates and what lies beyond Unicode.
+    const unsigned second = byte(place + 1);
+    const bool wrong = (lead == 0xE0U && second < 0xA0U) || (lead == 0xEDU && second >= 0xA0U) ||
+                       (lead == 0xF0U && second < 0x90U) || (lead == 0xF4U && second >= 0x90U);
+    return wrong ? 0 : length;
+}
+
+// cairo refuses what is no UTF-8, and a file's name may be anything.
+std::string printable(const std::string& text) {
+    std::string clean;
+    for (std::size_t place = 0; place < text.size();) {
+        const std::size_t length = sequence_length(text, place);
+        const bool is_control = length == 1 && static_cast<unsigned char>(text[place]) < 0x20U;
+        if (length == 0) {
+            clean += "\ufffd";
+        } else if (is_control) {
+            clean += ' ';
+        } else {
+            clean.append(text, place, length);
+        }
+        place += std::max<std::size_t>(length, 1);
+    }
+    return clean;
+}
+
+// Cut at a character's start, never within a UTF-8 sequence.
+std::string shortened(cairo_t* context, std::string text, double width) {
+    if (text_width(context, text) <= width) return text;
+    while (!text.empty() && text_width(context, text + "\u2026") > width) {
+        while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) text.pop_back();
+        if (!text.empty()) text.pop_back();
+    }
+    return text + "\u2026";
+}
+
+Boundary side_kind(const PictureContent& content, std::size_t axis) {
+    return content.domain ? content.domain->boundary[axis] : Boundary::kOpen;
+}
+
+void draw_side(cairo_t* context, const Vec2& from, const Vec2& to, Boundary kind, double unit) {
+    const double dash_periodic[] = {7 * unit, 5 * unit};
+    const double dash_open[] = {1 * unit, 4 * unit};
+    double width = 2.4 * unit;
+    cairo_set_dash(context, nullptr, 0, 0);
+    cairo_set_line_cap(context, CAIRO_LINE_CAP_SQUARE);
+    set_colour(context, palette::kFrame);
+    if (kind != Boundary::kWall) {
+        width = 1.2 * unit;
+        cairo_set_line_cap(context, CAIRO_LINE_CAP_BUTT);
+        cairo_set_dash(context, kind == Boundary::kPeriodic ? dash_periodic : dash_open, 2, 0);
+        set_colour(context, palette::kFrame, 0.8);
+    }
+    cairo_set_line_width(context, width);
+    cairo_move_to(context, from.x(), from.y());
+    cairo_line_to(context, to.x(), to.y());
+    cairo_stroke(context);
+    cairo_set_dash(context, nullptr, 0, 0);
+}
+
+void draw_tick(cairo_t* context, const Vec2& from, const Vec2& to, double unit) {
+    cairo_set_line_width(context, unit);
+    set_colour(context, palette::kFaintText);
+    cairo_move_to(context, from.x(), from.y());
+    cairo_line_to(context, to.x(), to.y());
+    cairo_stroke(context);
+}
+
+void draw_ticks(cairo_t* context, const PictureLayout& layout) {
+    const double unit = layout.unit;
+    select_font(context, 13 * unit);
+    const auto wanted = [&](double pixels, double each) { return std::max(1, int(pixels / (each * unit))); };
+    const Ticks along_x =
+        nice_ticks(layout.view.min.x(), layout.view.max.x(), wanted(layout.right - layout.left, 110));
+    for (const double value : along_x.values) {
+        const double x = layout.to_pixel({value, layout.view.min.y()}).x();
+        draw_tick(context, {x, layout.bottom + 4 * unit}, {x, layout.bottom + 9 * unit}, unit);
+        draw_text(context, tick_label(value, along_x.step), x, layout.bottom + 25 * unit, Align::kCentre);
+    }
+    const Ticks along_y =
+        nice_ticks(layout.view.min.y(), layout.view.max.y(), wanted(layout.bottom - layout.top, 110));
+    for (const double value : along_y.values) {
+        const double y = layout.to_pixel({layout.view.min.x(), value}).y();
+        draw_tick(context, {layout.left - 9 * unit, y}, {layout.left - 4 * unit, y}, unit);
+        draw_text(context, tick_label(value, along_y.step), layout.left - 13 * unit, y + 4.5 * unit,
+                  Align::kRight);
+    }
+}
+
+}  // namespace
+
+void draw_ground(cairo_t* context, const PictureLayout& layout) {
+    set_colour(context, palette::kPage);
+    cairo_paint(context);
+    set_colour(context, palette::kGround);
+    cairo_rectangle(context, layout.left, layout.top, layout.right - layout.left, layout.bottom - layout.top);
+    cairo_fill(context);
+}
+
+void draw_walls(cairo_t* context, const PictureContent& content, const PictureLayout& layout) {
+    cairo_set_line_width(context, 2 * layout.unit);
+    cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+    set_colour(context, palette::kWall);
+    for (const Wall& wall : content.walls) {
+        const Vec2 from = layout.to_pixel(wall.from);
+        const Vec2 to = layout.to_pixel(wall.to);
+        cairo_move_to(context, from.x(), from.y());
+        cairo_line_to(context, to.x(), to.y());
+    }
+    cairo_stroke(context);
+}
+
+void draw_frame(cairo_t* context, const PictureContent& content, const PictureLayout& layout) {
+    const double unit = layout.unit;
+    // A wall's line stands outside the view by half its width, so that its inner edge is where balls turn.
+    const double off_x = side_kind(content, 0) == Boundary::kWall ? 1.2 * unit : 0;
+    const double off_y = side_kind(content, 1) == Boundary::kWall ? 1.2 * unit : 0;
+    const Vec2 low{layout.left - off_x, layout.bottom + off_y};
+    const Vec2 high{layout.right + off_x, layout.top - off_y};
+    draw_side(context, {low.x(), low.y()}, {low.x(), high.y()}, side_kind(content, 0), unit);
+    draw_side(context, {high.x(), low.y()}, {high.x(), high.y()}, side_kind(content, 0), unit);
+    draw_side(context, {low.x(), low.y()}, {high.x(), low.y()}, side_kind(content, 1), unit);
+    draw_side(context, {low.x(), high.y()}, {high.x(), high.y()}, side_kind(content, 1), unit);
+    draw_ticks(context, layout);
+}
+
+void draw_legend(cairo_t* context, const PictureLayout& layout, double speed_scale, bool has_faster) {
+    const double unit = layout.unit;
+    const double left = layout.right + 28 * unit;
+    const double width = 14 * unit;
+    const double height = std::min(layout.bottom - layout.top, 420 * unit);
+    const double top = layout.top + (layout.bottom - layout.top - height) / 2 + 12 * unit;
+    const double bottom = top + height - 24 * unit;
+
+    const CairoPattern colours(cairo_pattern_create_linear(0, bottom, 0, top));
+    constexpr int kStops = 32;
+    for (int stop = 0; stop <= kStops; ++stop) {
+        const double place = double(stop) / kStops;
+        const Colour colour = map_colour(place);
+        cairo_pattern_add_color_stop_rgb(colours.get(), place, colour.red, colour.green, colour.blue);
+    }
+    cairo_set_source(context, colours.get());
+    cairo_rectangle(context, left, top, width, bottom - top);
+    cairo_fill(context);
+    if (has_faster) {  // a point on top: the colour of the end stands for everything beyond it, too
+        set_colour(context, map_colour(1));
+        cairo_move_to(context, left, top);
+        cairo_line_to(context, left + width / 2, top - 11 * unit);
+        cairo_line_to(context, left + width, top);
+        cairo_close_path(context);
+        cairo_fill(context);
+    }
+
+    select_font(context, 13 * unit);
+    const Ticks ticks = nice_ticks(0, speed_scale, std::max(1, int((bottom - top) / (70 * unit))));
+    for (const double value : ticks.values) {
+        const double y = bottom - (bottom - top) * value / speed_scale;
+        draw_tick(context, {left + width, y}, {left + width + 5 * unit, y}, unit);
+        draw_text(context, tick_label(value, ticks.step), left + width + 10 * unit, y + 4.5 * unit,
+                  Align::kLeft);
+    }
+    draw_text(context, "speed", left, bottom + 20 * unit, Align::kLeft);
+}
+
+void draw_title(cairo_t* context, const PictureContent& content, const PictureLayout& layout) {
+    const double unit = layout.unit;
+    const double room = layout.size.width - layout.left - 10 * unit;
+    select_font(context, 21 * unit, true);
+    set_colour(context, palette::kText);
+    draw_text(context, shortened(context, printable(content.title), room), layout.left,
+              layout.top - 38 * unit, Align::kLeft);
+
+    const std::size_t count = content.balls.size();
+    std::string line = fmt::format("t = {:.6g}  \u00b7  {} ball{}", content.time, with_thousands(count),
+                                   count == 1 ? "" : "s");
+    if (const std::size_t outside = count_outside(content.balls, layout.view); outside > 0) {
+        line += fmt::format("  \u00b7  {} outside", with_thousands(outside));
+    }
+    select_font(context, 14 * unit);
+    set_colour(context, palette::kFaintText);
+    draw_text(context, shortened(context, line, room), layout.left, layout.top - 15 * unit, Align::kLeft);
+}
+
+}  // namespace carom::app

@@ -1,0 +1,59 @@
+// The layers of a picture, from the back to the front. draw_picture puts them together.
+#pragma once
+
+#include <cairo.h>
+
+#include <array>
+
+#include "picture.hpp"
+
+namespace carom::app {
+
+/// Page, and the view's ground.
+void draw_ground(cairo_t* context, const PictureLayout& layout);
+
+/// Attractors: a dark disc in a glow, warm where it pulls and blue where it pushes.
+void draw_attractors(cairo_t* context, const PictureContent& content, const PictureLayout& layout);
+
+/// The balls one by one. `speed_scale` is the speed at the colours' upper end, > 0.
+void draw_balls_singly(cairo_t* context, const PictureContent& content, const PictureLayout& layout,
+                       double speed_scale);
+
+/// The balls gathered into an image with `pixels_per_unit` pixels to a unit of the layout.
+void draw_balls_gathered(cairo_t* context, const PictureContent& content, const PictureLayout& layout,
+                         double speed_scale, double pixels_per_unit);
+
+/// The scene's segments.
+void draw_walls(cairo_t* context, const PictureContent& content, const PictureLayout& layout);
+
+/// The view's sides (full: wall, dashed: periodic, dotted: open), with ticks.
+void draw_frame(cairo_t* context, const PictureContent& content, const PictureLayout& layout);
+
+/// The colours' scale. `has_faster`: some balls are faster than its end.
+void draw_legend(cairo_t* context, const PictureLayout& layout, double speed_scale, bool has_faster);
+
+/// Title, time and count of balls.
+void draw_title(cairo_t* context, const PictureContent& content, const PictureLayout& layout);
+
+/// Calls `draw(position)` for a ball at every place where it shows: its own, and across periodic sides where
+/// it overlaps them.
+template <class Draw>
+void for_each_image(const PictureContent& content, const PictureLayout& layout, const Ball& ball, Draw draw) {
+    const Box& view = layout.view;
+    const auto shift_range = [&](int axis) {
+        const bool periodic = content.domain && content.domain->boundary[axis] == Boundary::kPeriodic;
+        const int low = periodic && ball.position[axis] + ball.radius > view.max[axis] ? -1 : 0;
+        const int high = periodic && ball.position[axis] - ball.radius < view.min[axis] ? 1 : 0;
+        return std::array<int, 2>{low, high};
+    };
+    const Vec2 extent = view.max - view.min;
+    const auto [low_x, high_x] = shift_range(0);
+    const auto [low_y, high_y] = shift_range(1);
+    for (int y = low_y; y <= high_y; ++y) {
+        for (int x = low_x; x <= high_x; ++x) {
+            draw(Vec2{ball.position.x() + x * extent.x(), ball.position.y() + y * extent.y()});
+        }
+    }
+}
+
+}  // namespace carom::app

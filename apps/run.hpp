@@ -1,0 +1,48 @@
+// A run: a world moved to its end, and what is written on the way and there.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <carom/core/scene.hpp>
+#include <carom/io/atomic_file.hpp>
+#include <carom/io/events_csv.hpp>
+#include <carom/io/xyz.hpp>
+#include <carom/parallel/world.hpp>
+
+namespace carom::app {
+
+/// The command line of `carom run`. An empty path: not wanted.
+struct RunOptions {
+    std::string scene;
+    std::optional<double> until;
+    int threads = 0;
+    std::optional<double> step;
+    double cell_size = 0;
+    std::string trajectory;
+    std::optional<double> every;  ///< given exactly when `trajectory` is
+    std::string events;
+    std::string final_state;
+    std::string picture;
+    std::string summary = "-";
+    bool quiet = false;
+};
+
+/// The files of a run. All are opened at the start, so that one that cannot be written is known then and not
+/// after an hour. Throws FileError.
+struct RunOutputs {
+    explicit RunOutputs(const RunOptions& options);
+
+    std::optional<XyzTrajectory> trajectory;
+    std::optional<EventsCsv> events;
+    std::optional<AtomicFile> final_state;
+    std::optional<AtomicFile> picture;
+    std::optional<AtomicFile> summary;  ///< none: standard output
+};
+
+/// Moves the world to `until` and writes the outputs, also when an interrupt ends it earlier: then false.
+/// Throws what the outputs throw.
+bool run_world(World& world, const Scene& scene, double until, const RunOptions& options,
+               RunOutputs& outputs);
+
+}  // namespace carom::app

@@ -1,0 +1,115 @@
+// carom run: options, and the order of a run's parts.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <carom/io/scene_file.hpp>
+
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "options.hpp"
+#include "outputs.hpp"
+#include "run.hpp"
+
+namespace carom::app {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Every collision is found at its true time and resolved in time order. The result does not depend on --threads, --step
+or --cell-size, to the last bit: 'state_hash' in the summary says so.
+
+Files ending in .xyz are extended XYZ, one frame after the other, with enough digits to read back the same bits.
+--events writes CSV, one collision a line: time,kind,i,j,x,y,nx,ny,impulse. The summary is one JSON object. All outputs
+but the trajectory appear whole, at the end; the trajectory grows as the run goes.
+
+Ctrl-C ends a run early and writes what was asked for, up to the time reached; a second one ends it at once.
+
+Examples:
+  carom run gas.json                                 Summary to standard output
+  carom run gas.json --until 100 --summary gas.out   Go on longer; summary to a file
+  carom run gas.json --trajectory gas.xyz --every 0.5
+  carom run gas.json --events hits.csv --picture end.png --final end.xyz
+  carom run gas.json --quiet | jq .collisions_per_second)";
+
+int run(const RunOptions& options) {
+    require_distinct(options.scene, {{"--trajectory", options.trajectory},
+                                     {"--events", options.events},
+                                     {"--final", options.final_state},
+                                     {"--picture", options.picture},
+                                     {"--summary", options.summary}});
+    Scene scene = read_scene(options.scene);
+    const double until = options.until.value_or(scene.until);
+    // Never shortened: the engine's unit of time depends on it in a scene of astronomic length, and with it
+    // the last bits.
+    scene.until = std::max(scene.until, until);
+    RunOutputs outputs(options);
+    watch_for_interrupts();
+    World world(scene, {.threads = options.threads, .cell_size = options.cell_size});
+    const bool finished = run_world(world, scene, until, options, outputs);
+    if (finished) return kGood;
+    if (!options.quiet) {
+        fmt::print(stderr, "carom: interrupted at t = {:.6g} of {:.6g}; the outputs end there\n",
+                   world.time(), until);
+    }
+    return kInterrupted;
+}
+
+void add_output_options(CLI::App& command, RunOptions& options) {
+    const char* const group = "Outputs";
+    CLI::Option* const trajectory = command.add_option("--trajectory", options.trajectory,
+                                                       "All balls at times 0, DT, 2 DT, ... and at the end");
+    trajectory->option_text("FILE.xyz")->check(xyz_path())->group(group);
+    CLI::Option* const every =
+        command.add_option("--every", options.every, "Simulated time between the trajectory's frames");
+    every->option_text("DT")->check(positive_number())->group(group);
+    trajectory->needs(every);
+    every->needs(trajectory);
+    command.add_option("--events", options.events, "Every collision, in time order")
+        ->type_name("FILE.csv")
+        ->group(group);
+    command.add_option("--final", options.final_state, "All balls at the end")
+        ->type_name("FILE.xyz")
+        ->check(xyz_path())
+        ->group(group);
+    command.add_option("--picture", options.picture, "A drawing of the end")
+        ->type_name("FILE.png|.svg")
+        ->check(picture_path())
+        ->group(group);
+    command
+        .add_option("--summary", options.summary,
+                    "What the run came to; '-', the default, is standard output")
+        ->type_name("FILE|-")
+        ->group(group);
+    command.add_flag("--quiet", options.quiet, "No progress on standard error")->group(group);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& status) {
+    CLI::App* const command = app.add_subcommand("run", "Simulate a scene");
+    command->footer(kFooter);
+    const auto options = std::make_shared<RunOptions>();
+    command->add_option("SCENE", options->scene, "The scene file, JSON")->type_name("")->required();
+    command->add_option("--until", options->until, "Simulate to this time instead of the scene's")
+        ->type_name("T")
+        ->check(number_from_zero());
+    add_threads_option(*command, options->threads);
+    command
+        ->add_option("--step", options->step,
+                     "Advance in steps of this length. Never changes a bit of the result")
+        ->type_name("DT")
+        ->check(positive_number());
+    command
+        ->add_option("--cell-size", options->cell_size,
+                     "Side of the grid's cells. Never changes a bit of the result")
+        ->type_name("H")
+        ->check(positive_number());
+    add_output_options(*command, *options);
+    command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace carom::app

@@ -1,0 +1,76 @@
+// carom_gas: the engine's speed on the baseline's gas, in one line of the baseline's form.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include <carom/parallel/world.hpp>
+
+#include "gas_scene.hpp"
+#include "plain/gas.hpp"
+
+namespace carom::bench {
+namespace {
+
+// The very discs that the baseline starts from.
+Scene scene_of(const plain::Gas& gas) {
+    Scene scene;
+    scene.domain = Domain{{{0, 0}, {gas.side, gas.side}}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
+    scene.balls.reserve(gas.positions.size());
+    for (std::size_t i = 0; i < gas.positions.size(); ++i) {
+        Ball ball;
+        ball.position = {gas.positions[i][0], gas.positions[i][1]};
+        ball.velocity = {gas.velocities[i][0], gas.velocities[i][1]};
+        scene.balls.push_back(ball);
+    }
+    return scene;
+}
+
+void measure(double count, double packing, double seconds, int threads) {
+    using Clock = std::chrono::steady_clock;
+    WorldOptions options;
+    options.threads = threads;
+    World world(scene_of(plain::make_gas(count, packing)), options);
+    const auto balls = static_cast<double>(world.ball_count());
+    // One collision a ball, and at least 20,000 collisions, between two looks at the clock.
+    const double stretch = mean_free_time(packing) * std::max(1.0, 40000 / balls);
+    while (static_cast<double>(world.counts().ball_collisions) < 3 * balls) world.step(stretch);
+
+    const Counts counts_0 = world.counts();
+    const double energy = world.energy(), time_0 = world.time(), virial_0 = world.virial();
+    const Clock::time_point start = Clock::now();
+    double elapsed = 0;
+    do {
+        world.step(stretch);
+        elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+    } while (elapsed < seconds);
+
+    const auto collisions = static_cast<double>(world.counts().ball_collisions - counts_0.ball_collisions);
+    const double kinetic = energy / (balls - 1) * balls;  // N kT: the momentum is fixed at zero
+    std::printf(
+        "discs=%.0f packing=%.2f collisions_per_second=%.4g events=%.2f Z=%.4f energy_change=%.1e "
+        "threads=%d\n",
+        balls, packing, collisions / elapsed,
+        static_cast<double>(world.counts().events - counts_0.events) / collisions,
+        1 + (world.virial() - virial_0) / (2 * kinetic * (world.time() - time_0)),
+        world.energy() / energy - 1, world.threads());
+}
+
+}  // namespace
+}  // namespace carom::bench
+
+int main(int argc, char** argv) {
+    if (argc < 3 || argc > 5) {
+        std::fputs("usage: carom_gas COUNT PACKING [SECONDS [THREADS]]\n", stderr);
+        return 2;
+    }
+    try {
+        carom::bench::measure(std::atof(argv[1]), std::atof(argv[2]), argc > 3 ? std::atof(argv[3]) : 3,
+                              argc > 4 ? std::atoi(argv[4]) : 0);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "carom_gas: %s\n", error.what());
+        return 1;
+    }
+    return 0;
+}

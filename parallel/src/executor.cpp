@@ -1,0 +1,36 @@
+// The executor on oneTBB. No other file includes it.
+#include "executor.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace carom {
+
+struct Executor::Arena {
+    int threads;
+    tbb::task_arena arena;
+};
+
+Executor::Executor(int threads) {
+    const int count = threads > 0 ? threads : tbb::info::default_concurrency();
+    arena_ = std::make_unique<Arena>(count, tbb::task_arena(count));
+}
+Executor::~Executor() = default;
+Executor::Executor(Executor&&) noexcept = default;
+Executor& Executor::operator=(Executor&&) noexcept = default;
+
+int Executor::threads() const {
+    return arena_->threads;
+}
+
+void Executor::for_ranges(std::size_t count, std::size_t grain,
+                          const std::function<void(std::size_t, std::size_t)>& body) const {
+    arena_->arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                          [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); });
+    });
+}
+
+}  // namespace carom

@@ -1,0 +1,27 @@
+// The numbers of a scene that every event needs, and the scales derived from it.
+#pragma once
+
+#include <span>
+
+#include <carom/core/clock.hpp>
+#include <carom/core/scene.hpp>
+
+namespace carom {
+
+struct Physics {
+    Domain domain;
+    Vec2 gravity = Vec2::Zero();
+    RestitutionRule restitution_rule = RestitutionRule::kMin;
+    double contact_time = 0;  ///< of the TC model; 0 turns it off
+    double rest_time = 0;     ///< a contact under pressure parts for at least so long, see scales.cpp
+    double speed_factor = 1;
+    Clock clock;
+};
+
+/// The scene's numbers and scales. `balls` are all balls, fills included, at time 0.
+[[nodiscard]] Physics derive_physics(const Scene& scene, std::span<const Ball> balls);
+
+/// The acceleration that the attractors give a ball at p.
+[[nodiscard]] Vec2 field_at(std::span<const Attractor> attractors, const Vec2& p);
+
+}  // namespace carom

@@ -1,0 +1,103 @@
+// The invariants that promise the same bits: threads, frames, cells; and that reading changes nothing.
+#include <gtest/gtest.h>
+
+#include <carom/parallel/world.hpp>
+
+#include "scenes.hpp"
+
+namespace carom::test {
+namespace {
+
+constexpr double kEnd = 6.25;
+
+std::uint64_t hash_of(const Scene& scene, const WorldOptions& options,
+                      const std::vector<double>& stops = {}) {
+    World world(scene, options);
+    for (const double t : stops) world.advance_to(t);
+    world.advance_to(kEnd);
+    return world.state_hash();
+}
+
+/// The feature scenes and two with attractors, whose field is held constant for a while.
+std::vector<NamedScene> all_scenes() {
+    std::vector<NamedScene> all = feature_scenes();
+    Scene holes = gas(
+        21,
+        {.packing = 0.1, .boundary_x = Boundary::kWall, .boundary_y = Boundary::kWall, .radius_spread = 0.5});
+    holes.attractors = {{{10, 10}, 20, 1}, {{25, 30}, 10, 0.5}};
+    holes.gravity = {0, -0.2};
+    all.push_back({"attractors walled", holes});
+    Scene open = gas(
+        22,
+        {.packing = 0.1, .boundary_x = Boundary::kOpen, .boundary_y = Boundary::kOpen, .restitution = 0.8});
+    open.attractors = {{{20, 20}, 30, 1}};
+    open.field_interval = 0.05;
+    all.push_back({"attractor in the open inelastic", open});
+    return all;
+}
+
+class Invariance : public testing::TestWithParam<NamedScene> {};
+
+TEST_P(Invariance, OfThreads) {
+    const std::uint64_t one = hash_of(GetParam().scene, {.threads = 1});
+    for (const int threads : {2, 3, 8})
+        EXPECT_EQ(hash_of(GetParam().scene, {.threads = threads}), one) << threads << " threads";
+}
+
+TEST_P(Invariance, OfFrames) {
+    const std::uint64_t whole = hash_of(GetParam().scene, {.threads = 1});
+    std::vector<double> frames;
+    for (int k = 1; k < 375; ++k) frames.push_back(k / 60.0);
+    EXPECT_EQ(hash_of(GetParam().scene, {.threads = 1}, frames), whole) << "frames of 1/60";
+
+    constexpr std::uint64_t kSeed = 7;
+    std::mt19937_64 random(kSeed);
+    std::vector<double> irregular;
+    for (double t = 0; t < kEnd; t += std::exp2(uniform(random, -20, 1))) irregular.push_back(t);
+    EXPECT_EQ(hash_of(GetParam().scene, {.threads = 1}, irregular), whole)
+        << "irregular steps of seed " << kSeed;
+}
+
+TEST_P(Invariance, OfCells) {
+    const std::uint64_t chosen = hash_of(GetParam().scene, {.threads = 1});
+    for (const double size : {1.02, 1.7, 4.0, 1e9})
+        EXPECT_EQ(hash_of(GetParam().scene, {.threads = 1, .cell_size = size}), chosen) << size;
+}
+
+TEST_P(Invariance, OfReading) {
+    World world(GetParam().scene, {.threads = 1});
+    for (double t = 0; t < kEnd; t += 0.5) {
+        world.advance_to(t);
+        const std::uint64_t before = world.state_hash();
+        (void)world.positions();
+        (void)world.velocities();
+        (void)world.energy();
+        EXPECT_TRUE(world.validate().empty()) << world.validate().front().what;
+        EXPECT_EQ(world.state_hash(), before);
+    }
+    world.advance_to(kEnd);
+    EXPECT_EQ(world.state_hash(), hash_of(GetParam().scene, {.threads = 1}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::ValuesIn(all_scenes()), [](const auto& param) {
+    std::string name = param.param.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+});
+
+TEST(StateHash, ChangesWithTheLastBitOfOneVelocity) {
+    Scene scene = gas(1, {});
+    const std::uint64_t before = World(scene).state_hash();
+    scene.balls[17].velocity.y() = std::nextafter(scene.balls[17].velocity.y(), 10.0);
+    EXPECT_NE(World(scene).state_hash(), before);
+}
+
+TEST(StateHash, ChangesWhenTwoBallsSwap) {
+    Scene scene = gas(1, {});
+    const std::uint64_t before = World(scene).state_hash();
+    std::swap(scene.balls[3], scene.balls[4]);
+    EXPECT_NE(World(scene).state_hash(), before);
+}
+
+}  // namespace
+}  // namespace carom::test

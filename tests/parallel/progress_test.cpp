@@ -1,0 +1,179 @@
+// No scene hangs: resting contacts, inelastic collapse and simultaneous hits cost a bounded number of events
+// per ball and time.
+#include <gtest/gtest.h>
+
+#include <carom/parallel/world.hpp>
+
+#include "scenes.hpp"
+
+namespace carom::test {
+namespace {
+
+struct EnoughEvents {};
+
+/// Runs to `end` and gives collisions per ball and contact time (or second where that is 0); stops a run that
+/// does not end.
+double collisions_per_contact_time(const Scene& scene, double end) {
+    World world(scene, {.threads = 1});
+    std::uint64_t collisions = 0;
+    world.on_collision([&](const Collision&) {
+        if (++collisions > 5'000'000) throw EnoughEvents{};
+    });
+    try {
+        world.advance_to(end);
+    } catch (const EnoughEvents&) {
+        ADD_FAILURE() << "more than 5 million collisions before time " << end;
+    }
+    EXPECT_TRUE(world.validate().empty()) << world.validate().front().what;
+    const double unit = world.contact_time() > 0 ? world.contact_time() : 1;
+    return double(collisions) / double(scene.balls.size()) / end * unit;
+}
+
+Ball ball(double x, double y) {
+    Ball b;
+    b.position = {x, y};
+    return b;
+}
+
+Scene box_under_gravity(std::vector<Ball> balls, double restitution) {
+    Scene s;
+    s.gravity = {0, -9.81};
+    s.domain = Domain{{{0, 0}, {10, 10}}, {Boundary::kWall, Boundary::kWall}, 1};
+    s.until = 10;
+    for (Ball& b : balls) b.restitution = restitution;
+    s.balls = std::move(balls);
+    return s;
+}
+
+class Progress : public testing::TestWithParam<double> {};
+
+// A ball has at most six neighbours in the plane; a resting contact takes about one collision in a contact
+// time (rest_time), a ball in the middle of a pile a few from each side. 30 leaves room for the waves that
+// run through a column.
+constexpr double kMostPerContactTime = 30;
+
+TEST_P(Progress, BallAtRestOnTheFloor) {
+    const Scene s = box_under_gravity({ball(5, 0.5)}, GetParam());
+    if (GetParam() < 1) {
+        EXPECT_LE(collisions_per_contact_time(s, 10), 1.01);
+    } else {
+        // It hops for 1e-4 of the time of falling a diameter, sqrt(1 / 9.81): 31,321 hops a second.
+        EXPECT_LE(collisions_per_contact_time(s, 10), 31'400);
+    }
+}
+
+TEST_P(Progress, BallAtRestKeepsItsPlace) {
+    World world(box_under_gravity({ball(5, 0.5)}, GetParam()));
+    for (int k = 1; k <= 1000; ++k) {
+        world.advance_to(0.01 * k);
+        const Vec2 x = world.positions().row(0).transpose();
+        const double hop = 9.81 * std::pow(GetParam() < 1 ? world.contact_time() : 1e-4, 2) / 8;
+        ASSERT_NEAR(x.y(), 0.5 + hop / 2, hop / 2 + 1e-12);
+        ASSERT_EQ(x.x(), 5.0);
+    }
+}
+
+TEST_P(Progress, CornerWedgeAndPegs) {
+    if (GetParam() == 1) GTEST_SKIP() << "an elastic ball never comes to rest";
+    EXPECT_LE(collisions_per_contact_time(box_under_gravity({ball(0.5, 0.5)}, GetParam()), 10),
+              kMostPerContactTime);
+    Scene wedge = box_under_gravity({ball(5, 4)}, GetParam());
+    wedge.walls = {{{0, 5}, {5, 0.5}, 1}, {{5, 0.5}, {10, 5}, 1}};
+    EXPECT_LE(collisions_per_contact_time(wedge, 20), kMostPerContactTime);
+    Ball peg = ball(5, 2);
+    peg.is_static = true;
+    Ball other = ball(6.5, 2);
+    other.is_static = true;
+    EXPECT_LE(
+        collisions_per_contact_time(
+            box_under_gravity({peg, other, ball(5.75, 2.6614378277661477), ball(5, 8)}, GetParam()), 10),
+        kMostPerContactTime);
+}
+
+TEST_P(Progress, ElasticBallLaidOnTwoPegs) {
+    Ball peg = ball(5, 2);
+    peg.is_static = true;
+    Ball other = ball(6.5, 2);
+    other.is_static = true;
+    const Scene s = box_under_gravity({peg, other, ball(5.75, 2.6614378277661477)}, GetParam());
+    // Two contacts of the hop's length each, over three balls.
+    EXPECT_LE(collisions_per_contact_time(s, 1), 2 * 31'400);
+}
+
+TEST_P(Progress, ColumnAndPile) {
+    if (GetParam() == 1) GTEST_SKIP() << "an elastic pile is a gas";
+    std::vector<Ball> column;
+    for (int i = 0; i < 8; ++i) column.push_back(ball(5, 0.5 + i));
+    EXPECT_LE(collisions_per_contact_time(box_under_gravity(column, GetParam()), 5), kMostPerContactTime);
+    std::vector<Ball> pyramid;
+    for (int row = 0; row < 6; ++row)
+        for (int i = 0; i < 6 - row; ++i)
+            pyramid.push_back(ball(1 + 1.0000001 * i + 0.5 * row, 0.5 + 0.8660255 * row));
+    EXPECT_LE(collisions_per_contact_time(box_under_gravity(pyramid, GetParam()), 5), kMostPerContactTime);
+    std::vector<Ball> poured;
+    for (int i = 0; i < 9; ++i)
+        for (int j = 0; j < 9; ++j) poured.push_back(ball(1 + 1.01 * i, 0.55 + 1.01 * j));
+    EXPECT_LE(collisions_per_contact_time(box_under_gravity(poured, GetParam()), 10), kMostPerContactTime);
+}
+
+TEST_P(Progress, CollapseOfThree) {
+    Scene s = box_under_gravity({ball(2, 5), ball(4, 5), ball(6, 5)}, GetParam());
+    s.gravity = Vec2::Zero();
+    s.balls[0].velocity = {1, 0};
+    s.balls[2].velocity = {-1, 0};
+    EXPECT_LE(collisions_per_contact_time(s, 20), kMostPerContactTime);
+}
+
+TEST_P(Progress, ClusterInABlackHole) {
+    if (GetParam() == 1) GTEST_SKIP() << "an elastic cluster is a gas";
+    std::vector<Ball> balls;
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) {
+            balls.push_back(ball(1 + 1.5 * i, 1 + 1.5 * j));
+            balls.back().velocity = random_velocity(random, 1);
+        }
+    Scene s = box_under_gravity(balls, GetParam());
+    s.gravity = Vec2::Zero();
+    s.attractors = {{{5, 5}, 50, 0.5}};
+    EXPECT_LE(collisions_per_contact_time(s, 10), kMostPerContactTime);
+}
+
+INSTANTIATE_TEST_SUITE_P(Restitution, Progress, testing::Values(1.0, 0.9, 0.5, 0.1, 0.0));
+
+TEST(Progress, ThousandsOfSimultaneousHits) {
+    // A lattice of pairs that approach head on at one speed: every pair hits at time 0.5, and by symmetry
+    // again and again.
+    Scene s;
+    s.domain = Domain{{{0, 0}, {200, 200}}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
+    s.until = 100;
+    for (int row = 0; row < 50; ++row)
+        for (int k = 0; k < 100; ++k) {
+            Ball b = ball(2.0 * k + 1, 4.0 * row + 2);
+            b.velocity = {k % 2 == 0 ? 1.0 : -1.0, 0};
+            s.balls.push_back(b);
+        }
+    World world(s, {.threads = 1});
+    world.advance_to(100.25);
+    // Every ball meets each neighbour in turn, at 0.5, 1.5, 2.5, ...: 100 collisions up to time 99.5 and one
+    // at 100.5.
+    EXPECT_EQ(world.counts().ball_collisions, 2500u * 100u);
+    EXPECT_TRUE(world.validate().empty());
+    EXPECT_EQ(world.energy(), 2500);
+}
+
+TEST(Progress, BallWithoutRoomIsRefused) {
+    Scene s = box_under_gravity({ball(5, 0.5)}, 1);
+    s.walls = {{{0, 1}, {10, 1}, 1}};
+    s.balls[0].velocity = {1, 0};
+    World world(s);
+    try {
+        world.advance_to(1);
+        FAIL() << "advanced";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "balls[0]: is wedged: its collisions at time 0.000000 do not end");
+    }
+}
+
+}  // namespace
+}  // namespace carom::test

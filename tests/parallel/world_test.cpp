@@ -1,0 +1,168 @@
+// World's face: what it counts, conserves, reports and refuses.
+#include <carom/parallel/world.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes.hpp"
+
+namespace carom::test {
+namespace {
+
+TEST(World, ConservesMomentumAndEnergyInAnElasticGas) {
+    for (const double spread : {0.0, 0.9}) {
+        World world(gas(41, {.count = 400, .packing = 0.5, .radius_spread = spread}));
+        const double energy = world.energy();
+        const Vec2 momentum = world.momentum();
+        world.advance_to(20);
+        const auto collisions = double(world.counts().ball_collisions);
+        EXPECT_GT(collisions, 4000);
+        // Each collision rounds two momenta and energies by a few ulp; their signs are random.
+        const double bound = 8 * 1.1e-16 * std::sqrt(collisions);
+        EXPECT_NEAR(world.energy() / energy, 1, bound);
+        EXPECT_NEAR(world.momentum().x(), momentum.x(), bound * 4);
+        EXPECT_NEAR(world.momentum().y(), momentum.y(), bound * 4);
+    }
+}
+
+TEST(World, EnergyCountsTheSceneGravity) {
+    Scene s = gas(42, {.packing = 0.2, .boundary_y = Boundary::kWall});
+    s.gravity = {0.3, -0.5};  // x is periodic: the energy follows the unwrapped path
+    World world(s);
+    const double energy = world.energy();
+    world.advance_to(20);
+    EXPECT_NEAR(world.energy(), energy, 1e-11 * std::abs(energy));
+}
+
+TEST(World, StepAddsToTheTime) {
+    World world(gas(43, {}));
+    world.step(0.25);
+    world.step(0.5);
+    EXPECT_EQ(world.time(), 0.75);
+}
+
+TEST(World, RefusesThePast) {
+    World world(gas(44, {}));
+    world.advance_to(1);
+    EXPECT_THROW(world.advance_to(0.5), std::invalid_argument);
+    EXPECT_THROW(world.advance_to(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+    EXPECT_THROW(world.advance_to(std::numeric_limits<double>::infinity()), std::invalid_argument);
+    EXPECT_EQ(world.time(), 1);
+}
+
+TEST(World, ReportsACollision) {
+    Scene s;
+    s.until = 10;
+    s.balls.resize(2);
+    s.balls[0].position = {0, 0};
+    s.balls[0].velocity = {1, 0};
+    s.balls[1].position = {3, 0};
+    s.balls[1].mass = 3;
+    World world(s);
+    std::vector<Collision> seen;
+    world.on_collision([&seen](const Collision& c) { seen.push_back(c); });
+    world.advance_to(10);
+    ASSERT_EQ(seen.size(), 1u);
+    EXPECT_EQ(seen[0].time, 2);
+    EXPECT_EQ(seen[0].kind, CollisionKind::kBall);
+    EXPECT_EQ(seen[0].i, 0u);
+    EXPECT_EQ(seen[0].j, 1u);
+    EXPECT_EQ(seen[0].point, Vec2(2.5, 0));
+    EXPECT_EQ(seen[0].normal, Vec2(-1, 0));
+    EXPECT_EQ(seen[0].impulse, 1.5);  // 2 m1 m2 / (m1 + m2) times the speed
+    EXPECT_EQ(world.velocities()(0, 0), -0.5);
+    EXPECT_EQ(world.velocities()(1, 0), 0.5);
+}
+
+TEST(World, NumbersTheDomainsSidesAfterTheWalls) {
+    Scene s;
+    s.until = 10;
+    s.domain = Domain{{{0, 0}, {10, 10}}, {Boundary::kWall, Boundary::kWall}, 1};
+    s.walls = {{{4, 9}, {6, 9}, 1}};
+    s.balls.resize(1);
+    s.balls[0].position = {5, 5};
+    for (const auto& [velocity, wall] : std::vector<std::pair<Vec2, std::uint32_t>>{
+             {{0, 1}, 0}, {{-1, 0}, 1}, {{1, 0}, 2}, {{0, -1}, 3}, {{0.9, 1}, 4}}) {
+        s.balls[0].velocity = velocity;
+        World world(s);
+        std::vector<std::uint32_t> seen;
+        world.on_collision([&seen](const Collision& c) { seen.push_back(c.j); });
+        world.advance_to(4.9);
+        ASSERT_THAT(seen, testing::Not(testing::IsEmpty()));
+        EXPECT_EQ(seen[0], wall);
+    }
+}
+
+TEST(World, SpeedFactorTakesWholeVelocityAtWallsOnly) {
+    Scene s;
+    s.until = 10;
+    s.contact_time = 0;
+    s.speed_factor = 0.5;
+    s.domain = Domain{{{0, 0}, {10, 10}}, {Boundary::kWall, Boundary::kWall}, 1};
+    s.balls.resize(2);
+    s.balls[0].position = {5, 5};
+    s.balls[0].velocity = {3, 4};
+    s.balls[1].position = {8, 1};
+    World world(s);
+    world.advance_to(1.25);  // the ceiling is met at 1.125
+    EXPECT_EQ(world.velocities()(0, 0), 1.5);
+    EXPECT_EQ(world.velocities()(0, 1), -2);
+}
+
+// A bullet of a million radii a second meets a thin row of balls and a wall, whatever the step.
+TEST(World, NothingTunnels) {
+    for (const double speed : {1e3, 1e6, 1e9}) {
+        Scene s;
+        s.until = 1;
+        s.balls.resize(2);
+        s.balls[0].radius = 1e-3;
+        s.balls[0].position = {0, 0.25};
+        s.balls[0].velocity = {speed, 0};
+        s.balls[1].radius = 1e-3;
+        s.balls[1].position = {50, 0.2505};
+        s.walls = {{{100, -50}, {100, 50}, 1}};
+        World world(s);
+        world.advance_to(1);
+        EXPECT_EQ(world.counts().ball_collisions, 1u) << speed;
+        EXPECT_EQ(world.counts().wall_collisions, 1u)
+            << speed;  // by the struck ball, which leaves at 14.5 degrees
+    }
+}
+
+TEST(World, ValidatesAsSoundThroughARun) {
+    for (const NamedScene& named : feature_scenes()) {
+        World world(named.scene);
+        for (int k = 1; k <= 5; ++k) {
+            world.advance_to(k);
+            EXPECT_THAT(world.validate(), testing::IsEmpty()) << named.name;
+            EXPECT_LT(world.max_overlap(), 1e-12) << named.name;
+        }
+    }
+}
+
+TEST(World, EmptyAndStaticWorldsStandStill) {
+    Scene s;
+    s.until = 1;
+    World empty(s);
+    empty.advance_to(1e6);
+    EXPECT_EQ(empty.counts().events, 0u);
+    s.gravity = {0, -1};
+    s.balls.resize(3);
+    for (int i = 0; i < 3; ++i) {
+        s.balls[i].position = {0.5 * i, 0};
+        s.balls[i].is_static = true;
+    }
+    World still(s);
+    still.advance_to(1e6);
+    EXPECT_EQ(still.counts().events, 0u);
+    EXPECT_EQ(still.positions()(2, 0), 1.0);
+}
+
+TEST(World, RefusesOverlappingBalls) {
+    Scene s = gas(45, {});
+    s.balls[7].position = s.balls[3].position + Vec2(0.75, 0);
+    EXPECT_THROW(World{s}, SceneError);
+}
+
+}  // namespace
+}  // namespace carom::test
