@@ -12,8 +12,18 @@
 namespace carom::app {
 namespace {
 
+// A static ball that reaches far beyond any picture is plain: its hatch would be millions of lines, almost
+// all out of sight.
+constexpr double kLargestHatched = 1e5;
+
 double speed_of(const Ball& ball) {
     return std::hypot(ball.velocity.x(), ball.velocity.y());
+}
+
+// False also for what is no number. cairo's coordinates are 24 bits wide and wrap beyond.
+bool meets_frame(const PictureLayout& layout, const Vec2& centre, double radius) {
+    return centre.x() + radius > layout.left && centre.x() - radius < layout.right &&
+           centre.y() + radius > layout.top && centre.y() - radius < layout.bottom;
 }
 
 void disc_path(cairo_t* context, const Vec2& centre, double radius) {
@@ -31,7 +41,9 @@ void hatch(cairo_t* context, const Vec2& centre, double radius, double spacing) 
     // other.
     const double middle = centre.x() + centre.y();
     const double reach = radius * std::numbers::sqrt2;
-    for (double k = std::ceil((middle - reach) / spacing); k * spacing <= middle + reach; k += 1) {
+    const auto first = static_cast<int>(std::ceil((middle - reach) / spacing));
+    const auto last = static_cast<int>(std::floor((middle + reach) / spacing));
+    for (int k = first; k <= last; ++k) {
         const double sum = k * spacing;
         cairo_move_to(context, centre.x() - radius, sum - (centre.x() - radius));
         cairo_line_to(context, centre.x() + radius, sum - (centre.x() + radius));
@@ -44,7 +56,7 @@ void draw_static_ball(cairo_t* context, const Vec2& centre, double radius, doubl
     disc_path(context, centre, radius);
     set_colour(context, palette::kStaticBall);
     cairo_fill_preserve(context);
-    if (radius > 4 * unit) hatch(context, centre, radius, 6 * unit);
+    if (radius > 4 * unit && radius < kLargestHatched) hatch(context, centre, radius, 6 * unit);
     disc_path(context, centre, std::max(radius - unit / 2, radius / 2));
     set_colour(context, palette::kStaticHatch);
     cairo_set_line_width(context, std::min(unit, radius / 4));
@@ -120,6 +132,7 @@ void draw_balls_singly(cairo_t* context, const PictureContent& content, const Pi
         const double radius = std::max(ball.radius * layout.scale, 0.4 * layout.unit);
         for_each_image(content, layout, ball, [&](const Vec2& position) {
             const Vec2 centre = layout.to_pixel(position);
+            if (!meets_frame(layout, centre, radius)) return;
             if (ball.is_static) {
                 draw_static_ball(context, centre, radius, layout.unit);
                 return;

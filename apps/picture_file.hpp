@@ -1,6 +1,7 @@
 // Pictures as bytes of a PNG or SVG file.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -8,7 +9,7 @@
 
 namespace carom::app {
 
-enum class PictureFormat { kPng, kSvg };
+enum class PictureFormat : std::uint8_t { kPng, kSvg };
 
 /// The format that the path's extension names, in any case of letters. Throws std::invalid_argument that
 /// names the extension and the known ones.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "cairo_handles.hpp"
@@ -13,7 +15,7 @@
 namespace carom::app {
 namespace {
 
-enum class Align { kLeft, kCentre, kRight };
+enum class Align : std::uint8_t { kLeft, kCentre, kRight };
 
 void select_font(cairo_t* context, double size, bool bold = false) {
     cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL,

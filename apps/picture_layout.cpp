@@ -68,7 +68,8 @@ Ticks nice_ticks(double low, double high, int wanted) {
     const double last = std::floor(high / ticks.step + slack);
     // Far from zero the step can vanish beside the numbers: then there are no ticks rather than thousands.
     if (!(last - first < 4.0 * std::max(wanted, 1) + 4)) return ticks;
-    for (double k = first; k <= last; k += 1) ticks.values.push_back(k * ticks.step);
+    const auto count = static_cast<int>(last - first) + 1;
+    for (int k = 0; k < count; ++k) ticks.values.push_back((first + k) * ticks.step);
     return ticks;
 }
 

@@ -2,9 +2,10 @@
 #include <carom/broadphase/overlap.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -61,13 +62,13 @@ double depth_in_itself(const Ball& ball, const std::array<Axis, 2>& axes) {
 /// What balls can hit that are not balls, and how deep they are in it.
 class Walls {
  public:
-    explicit Walls(const Scene& scene)
-        : scene_(scene), axes_(detail::axes_of(scene)), tree_(scene.walls), sides_(scene.domain) {}
-
-    [[nodiscard]] bool empty() const {
-        if (!tree_.empty()) return false;
-        return !sides_ || (sides_->boundary[0] != Boundary::kWall && sides_->boundary[1] != Boundary::kWall);
+    explicit Walls(const Scene& scene) : axes_(detail::axes_of(scene)), tree_(scene.walls) {
+        if (!scene.domain) return;
+        box_ = scene.domain->box;
+        for (int axis = 0; axis < 2; ++axis) walled_[axis] = scene.domain->boundary[axis] == Boundary::kWall;
     }
+
+    [[nodiscard]] bool empty() const { return tree_.empty() && !walled_[0] && !walled_[1]; }
 
     /// Calls visit(wall, depth) for each that the ball reaches into, in no particular order; depth > 0.
     template <class Visit>
@@ -86,33 +87,28 @@ class Walls {
                 });
             }
         }
-        for (int axis = 0; sides_ && axis < 2; ++axis) {
-            if (sides_->boundary[axis] != Boundary::kWall) continue;
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            if (!walled_[axis]) continue;
             const std::size_t side = tree_.walls().size() + 2 * axis;
-            report(side, ball.radius - (ball.position[axis] - sides_->box.min[axis]), visit);
-            report(side + 1, ball.radius - (sides_->box.max[axis] - ball.position[axis]), visit);
+            const auto k = static_cast<Eigen::Index>(axis);
+            report(side, ball.radius - (ball.position[k] - box_.min[k]), visit);
+            report(side + 1, ball.radius - (box_.max[k] - ball.position[k]), visit);
         }
     }
 
     /// The rounding of a distance from wall `j`.
     [[nodiscard]] double touch_at(const Ball& ball, std::size_t j) const {
-        double coordinate = largest(ball.position.x(), ball.position.y());
-        if (j < scene_.walls.size()) {
-            const Wall& wall = scene_.walls[j];
-            coordinate = std::max(
-                {coordinate, largest(wall.from.x(), wall.from.y()), largest(wall.to.x(), wall.to.y())});
-        } else {
-            const Box& box = sides_->box;
-            coordinate =
-                std::max({coordinate, largest(box.min.x(), box.min.y()), largest(box.max.x(), box.max.y())});
-        }
+        const Box ends = j < tree_.walls().size() ? Box{tree_.walls()[j].from, tree_.walls()[j].to} : box_;
+        const double coordinate =
+            std::max({largest(ball.position.x(), ball.position.y()), largest(ends.min.x(), ends.min.y()),
+                      largest(ends.max.x(), ends.max.y())});
         return touch(ball.radius, coordinate);
     }
 
     [[nodiscard]] std::string name(std::size_t j) const {
         constexpr std::array<const char*, 4> kSides = {"left", "right", "lower", "upper"};
-        if (j < scene_.walls.size()) return fmt::format("walls[{}]", j);
-        return fmt::format("the domain's {} side", kSides[j - scene_.walls.size()]);
+        if (j < tree_.walls().size()) return fmt::format("walls[{}]", j);
+        return fmt::format("the domain's {} side", kSides[j - tree_.walls().size()]);
     }
 
  private:
@@ -121,10 +117,10 @@ class Walls {
         if (depth > 0) visit(wall, depth);
     }
 
-    const Scene& scene_;
     std::array<Axis, 2> axes_;
     detail::WallTree tree_;
-    const std::optional<Domain>& sides_;
+    Box box_;
+    std::array<bool, 2> walled_{};
 };
 
 /// The overlaps of one ball with walls, each wall once (a ball may meet several images of one), in the order

@@ -50,9 +50,10 @@ class PairSearch {
     [[nodiscard]] const std::array<Axis, 2>& axes() const { return axes_; }
     /// The offset from b to a by the shorter way round.
     [[nodiscard]] Vec2 offset(const Disc& a, const Disc& b) const {
-        const Vec2 plain(a.x - b.x, a.y - b.y);
-        if (axes_[0].period == 0 && axes_[1].period == 0) return plain;
-        return {axes_[0].nearest(plain.x()), axes_[1].nearest(plain.y())};
+        Vec2 plain(a.x - b.x, a.y - b.y);
+        if (axes_[0].period > 0) plain.x() = axes_[0].nearest(plain.x());
+        if (axes_[1].period > 0) plain.y() = axes_[1].nearest(plain.y());
+        return plain;
     }
 
     /// For each pair (a, b) whose surfaces may be near, and both of which are not static, calls visit(a, b)

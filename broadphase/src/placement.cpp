@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -24,9 +25,13 @@ class FillPlacer {
  public:
     FillPlacer(const Scene& scene, std::size_t index)
         : scene_(scene), fill_(scene.fills[index]), index_(index) {
-        if (!fill_.region && !scene.domain)
+        const std::optional<Box>& region = scene.fills[index].region;
+        if (region)
+            region_ = *region;
+        else if (scene.domain)
+            region_ = scene.domain->box;
+        else
             throw SceneError(place("region"), "is required where the scene has no domain");
-        region_ = fill_.region ? *fill_.region : scene.domain->box;
     }
 
     void append_to(std::vector<Ball>& balls) const {
@@ -61,11 +66,11 @@ class FillPlacer {
 
     [[nodiscard]] std::vector<double> radii() const {
         Random random(fill_.seed, index_, Stream::kRadii);
-        return fill_.count ? radii_by_count(random) : radii_by_packing(random);
+        return fill_.count ? radii_by_count(*fill_.count, random) : radii_by_packing(random);
     }
 
-    [[nodiscard]] std::vector<double> radii_by_count(Random& random) const {
-        std::vector<double> radii(*fill_.count);
+    [[nodiscard]] std::vector<double> radii_by_count(std::uint64_t count, Random& random) const {
+        std::vector<double> radii(count);
         double squares = 0;
         for (double& radius : radii) {
             radius = draw_radius(random);
@@ -86,7 +91,8 @@ class FillPlacer {
 
     /// Discs are drawn as long as each brings the packing nearer to what is asked for.
     [[nodiscard]] std::vector<double> radii_by_packing(Random& random) const {
-        const double wanted = *fill_.packing_fraction * area() / std::numbers::pi;
+        const double packing = fill_.packing_fraction.value_or(0);
+        const double wanted = packing * area() / std::numbers::pi;
         const double mean_square =
             (fill_.radius_min * fill_.radius_min + fill_.radius_min * fill_.radius_max +
              fill_.radius_max * fill_.radius_max) /
@@ -103,7 +109,7 @@ class FillPlacer {
         if (radii.empty())
             throw SceneError(place("packing_fraction"),
                              fmt::format("must be at least {:.6g}, for one disc in the region, is {:.6g}",
-                                         std::numbers::pi * mean_square / area(), *fill_.packing_fraction));
+                                         std::numbers::pi * mean_square / area(), packing));
         return radii;
     }
 

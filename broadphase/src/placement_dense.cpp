@@ -1,17 +1,12 @@
 // The dense arrangements: relaxed from a lattice or from overlapping places, then shaken.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "placement_methods.hpp"
 
 namespace carom::detail {
 namespace {
 
-// Adsorption of equal discs needs some 40 tries a disc, all in all, to reach a packing of 0.5; it never
-// passes 0.547.
-constexpr std::uint64_t kTriesPerDisc = 64;
-constexpr std::uint64_t kMostTriesInARow = 20000;
 // The start of discs of different sizes: their radii are scaled to this packing, adsorbed, and given back
 // their size.
 constexpr double kPackingOfScaledStart = 0.35;
@@ -50,6 +45,7 @@ void put_anywhere(Space& space, Random& random) {
 /// How many discs, the largest first, have room where they stand; the others are taken out.
 std::size_t keep_clear_ones(Space& space) {
     std::vector<Space::Body> bodies;
+    bodies.reserve(space.count());
     for (std::uint32_t id = 0; id < space.count(); ++id) bodies.push_back(space.body(id));
     space.clear();
     std::size_t kept = 0;

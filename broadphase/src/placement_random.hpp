@@ -10,7 +10,7 @@ namespace carom::detail {
 
 /// What a stream of random numbers is for. Each has its own, so that a change of temperature leaves every
 /// place as it was.
-enum class Stream : std::uint64_t { kRadii = 1, kPlaces = 2, kVelocities = 3 };
+enum class Stream : std::uint8_t { kRadii = 1, kPlaces = 2, kVelocities = 3 };
 
 class Random {
  public:

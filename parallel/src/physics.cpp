@@ -102,9 +102,9 @@ Physics derive_physics(const Scene& scene, std::span<const Ball> balls) {
     const double natural = std::min(crossing_time, falling_time);
     p.clock = Clock(
         std::max(kEpochCrossings * (std::isfinite(natural) ? natural : 1.0), scene.until / kMostEpochs));
+    p.loses_energy = loses_energy(scene, balls);
     const double derived = std::min(kContactCrossings * crossing_time, kContactFalls * falling_time);
-    p.contact_time =
-        scene.contact_time.value_or(loses_energy(scene, balls) && std::isfinite(derived) ? derived : 0.0);
+    p.contact_time = scene.contact_time.value_or(p.loses_energy && std::isfinite(derived) ? derived : 0.0);
     p.rest_time =
         p.contact_time > 0 ? p.contact_time : (std::isfinite(falling_time) ? kRestFalls * falling_time : 0.0);
     return p;

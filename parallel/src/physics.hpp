@@ -15,6 +15,7 @@ struct Physics {
     double contact_time = 0;  ///< of the TC model; 0 turns it off
     double rest_time = 0;     ///< a contact under pressure parts for at least so long, see scales.cpp
     double speed_factor = 1;
+    bool loses_energy = false;  ///< some restitution, or the speed factor, is below 1
     Clock clock;
 };
 

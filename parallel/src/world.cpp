@@ -76,6 +76,8 @@ class World::State {
           field_interval(scene.field_interval) {
         const std::vector<Ball> balls = place_checked(scene);
         physics = derive_physics(scene, balls);
+        in_equilibrium = !physics.loses_energy && scene.gravity.isZero(0) && scene.attractors.empty() &&
+                         std::ranges::all_of(balls, [](const Ball& b) { return b.acceleration.isZero(0); });
         const Grid grid =
             choose_grid(physics.domain, balls.size(), listed_diameter(balls), options.cell_size);
         loop = make_event_loop(physics, balls, walls, attractors, grid, executor);
@@ -127,6 +129,7 @@ class World::State {
     std::vector<Attractor> attractors;
     double field_interval;
     std::uint64_t field_updates = 0;
+    bool in_equilibrium = false;  // neither losses nor forces, so that one temperature holds throughout
     std::unique_ptr<EventLoop> loop;
     Time now;
     double seconds = 0;
@@ -223,6 +226,7 @@ std::optional<double> World::compressibility_factor() const {
     const Domain& d = domain();
     if (d.boundary[0] != Boundary::kPeriodic || d.boundary[1] != Boundary::kPeriodic || !(time() > 0))
         return std::nullopt;
+    if (!state_->in_equilibrium) return std::nullopt;
     const double moving = state_->sum([](std::size_t, const Ball&) { return 1.0; });
     const double kinetic = kinetic_energy();
     if (moving < 2 || !(kinetic > 0)) return std::nullopt;

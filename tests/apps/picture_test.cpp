@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <numbers>
@@ -43,7 +44,7 @@ class Image {
         const int stride = cairo_image_surface_get_stride(surface_.get());
         const unsigned char* const data = cairo_image_surface_get_data(surface_.get());
         std::uint32_t value = 0;
-        std::memcpy(&value, data + int(pixel.y()) * stride + 4 * int(pixel.x()), 4);
+        std::memcpy(&value, data + std::ptrdiff_t(pixel.y()) * stride + 4 * std::ptrdiff_t(pixel.x()), 4);
         return {int(value >> 16U & 255U), int(value >> 8U & 255U), int(value & 255U)};
     }
 
@@ -178,7 +179,7 @@ TEST(Picture, BallsHaveTheirPlaceAndColourWithYUp) {
     PictureContent content = box_content(20, 10);
     content.balls = {ball_at(4, 8, 2, 1), ball_at(15, 2.5, 1, 1), ball_at(10, 5, 0, 1)};
     const PictureSize size{1000, 600};
-    const PictureLayout layout(content.domain->box, size);
+    const PictureLayout layout(view_of(content), size);
     const Image image = png_of(content, size);
     EXPECT_EQ(image.width(), 1000);
     EXPECT_EQ(image.height(), 600);
@@ -199,13 +200,13 @@ TEST(Picture, DiscsAreRoundWithTheirArea) {
     PictureContent content = box_content(10, 10);
     content.balls = {ball_at(5, 5, 0, 2)};
     const PictureSize size{700, 500};
-    const PictureLayout layout(content.domain->box, size);
+    const PictureLayout layout(view_of(content), size);
     const Image image = png_of(content, size);
     int covered = 0;
     const Bytes ground = to_bytes(palette::kGround);
-    for (double y = layout.top + 4; y < layout.bottom - 4; ++y) {
-        for (double x = layout.left + 4; x < layout.right - 4; ++x) {
-            covered += image.at({x, y}).red > ground.red + 5;
+    for (int y = int(layout.top) + 4; y < int(layout.bottom) - 4; ++y) {
+        for (int x = int(layout.left) + 4; x < int(layout.right) - 4; ++x) {
+            covered += image.at(Vec2(x, y)).red > ground.red + 5;
         }
     }
     const double radius = 2 * layout.scale;
@@ -217,7 +218,7 @@ TEST(Picture, PeriodicBallsShowOnBothSidesAndNotBeyondTheFrame) {
     PictureContent content = box_content(10, 10, Boundary::kPeriodic);
     content.balls = {ball_at(0.1, 9.9, 0, 1)};
     const PictureSize size{700, 600};
-    const PictureLayout layout(content.domain->box, size);
+    const PictureLayout layout(view_of(content), size);
     const Image image = png_of(content, size);
     for (const Vec2& place : {Vec2{0.5, 9.5}, Vec2{9.5, 9.5}, Vec2{0.5, 0.5}, Vec2{9.5, 0.5}}) {
         expect_colour(image.at(layout.to_pixel(place)), map_colour(0));
@@ -225,8 +226,9 @@ TEST(Picture, PeriodicBallsShowOnBothSidesAndNotBeyondTheFrame) {
     expect_colour(image.at(layout.to_pixel({5, 9.5})), palette::kGround);
     expect_colour(image.at(layout.to_pixel({10.5, 9.5})), palette::kPage);
 
-    content.domain->boundary = {Boundary::kOpen, Boundary::kOpen};
-    const Image open = png_of(content, size);
+    PictureContent without = box_content(10, 10, Boundary::kOpen);
+    without.balls = content.balls;
+    const Image open = png_of(without, size);
     expect_colour(open.at(layout.to_pixel({9.5, 0.5})), palette::kGround);
 }
 
@@ -244,7 +246,7 @@ TEST(Picture, ManyBallsShowTheirMeanSpeedAndArea) {
     }
     ASSERT_GT(content.balls.size(), kVectorBalls);
     const PictureSize size{400, 340};
-    const PictureLayout layout(content.domain->box, size);
+    const PictureLayout layout(view_of(content), size);
     ASSERT_LT(0.4 * spacing * layout.scale, 0.5);
     const Image image = png_of(content, size);
     const double covered = std::numbers::pi * 0.16;
@@ -270,7 +272,7 @@ TEST(Picture, GatheredAndSingleBallsAgree) {
     PictureContent content = box_content(100, 100);
     content.balls = {ball_at(60, 70, 3, 10)};
     const PictureSize size{600, 500};
-    const PictureLayout layout(content.domain->box, size);
+    const PictureLayout layout(view_of(content), size);
     const Image single = png_of(content, size);
     for (std::size_t i = 0; i < kVectorBalls; ++i)
         content.balls.push_back(ball_at(1 + 1e-3 * double(i % 141), 1, 3, 1e-4));
@@ -292,7 +294,7 @@ TEST(Picture, StaticBallsWallsAndAttractors) {
     content.walls = {{{2, 2}, {18, 2}, 1}};
     content.attractors = {{{10, 8}, 5, 0.5}};
     const PictureSize size{2000, 1200};  // lines are wider than two pixels: one is full
-    const PictureLayout layout(content.domain->box, size);
+    const PictureLayout layout(view_of(content), size);
     const Image image = png_of(content, size);
     expect_colour(image.at(layout.to_pixel({10, 2})), palette::kWall, 6);
     expect_colour(image.at(layout.to_pixel({10, 8})), {0, 0, 0});

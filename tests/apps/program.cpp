@@ -50,6 +50,7 @@ pid_t Folder::start(const std::vector<std::string>& arguments) const {
     std::vector<std::string> words = {CAROM_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     const std::string out = path("out"), err = path("err");
@@ -58,6 +59,7 @@ pid_t Folder::start(const std::vector<std::string>& arguments) const {
     // In the child: nothing but system calls.
     const int out_file = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     const int err_file = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (out_file < 0 || err_file < 0) _exit(127);
     if (dup2(out_file, STDOUT_FILENO) < 0 || dup2(err_file, STDERR_FILENO) < 0 || chdir(folder_.c_str()) != 0)
         _exit(127);
     execv(pointers[0], pointers.data());

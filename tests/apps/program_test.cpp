@@ -227,6 +227,7 @@ TEST(Program, TrajectoryHasAFrameEachStepAndOneAtTheEnd) {
                   .status,
               0);
     std::vector<double> wanted;
+    wanted.reserve(11);
     for (int k = 0; k < 10; ++k) wanted.push_back(k * 0.1);
     wanted.push_back(1);
     EXPECT_EQ(times_of("t.xyz"), wanted);

@@ -98,6 +98,7 @@ TEST(Overlap, EqualsBruteForceInEveryBox) {
         // From one size to radii of 1 : 10^4, which span fourteen grids.
         const double octaves = seed % 4 == 0 ? 13.3 : seed % 4 == 1 ? 0 : 2;
         std::vector<Ball> balls;
+        balls.reserve(300);
         for (int k = 0; k < 300; ++k) {
             Ball ball = ball_at(source.uniform(-5, 5), source.uniform(0, 10),
                                 std::exp2(-source.uniform(0, octaves)) * 0.7);
@@ -116,6 +117,7 @@ TEST(Overlap, EqualsBruteForceInNarrowPeriodicBoxes) {
         const double side = source.uniform(1.05, 5);
         const Scene scene = box_scene(Boundary::kPeriodic, Boundary::kPeriodic, side);
         std::vector<Ball> balls;
+        balls.reserve(6);
         for (int k = 0; k < 6; ++k)
             balls.push_back(ball_at(source.uniform(-side / 2, side / 2), source.uniform(0, side),
                                     source.uniform(0.1, 0.5)));
@@ -126,6 +128,7 @@ TEST(Overlap, EqualsBruteForceInNarrowPeriodicBoxes) {
 TEST(Overlap, FindsPairsFarApartFromOneAnotherWithoutADomain) {
     Source source(7);
     std::vector<Ball> balls;
+    balls.reserve(200);
     for (int k = 0; k < 200; ++k) {
         // Clusters at up to 1e12 radii from the origin; a power of two, so that the offsets in a cluster are
         // exact.
@@ -156,6 +159,7 @@ TEST(Overlap, FirstPairIsTheSmallestOfAll) {
         Source source(seed);
         const Scene scene = box_scene(Boundary::kPeriodic, Boundary::kOpen, 40);
         std::vector<Ball> balls;
+        balls.reserve(200);
         for (int k = 0; k < 200; ++k)
             balls.push_back(
                 ball_at(source.uniform(-20, 20), source.uniform(0, 40), std::exp2(-source.uniform(0, 5))));
@@ -175,6 +179,7 @@ TEST(Overlap, AHeapOnOnePointIsRefusedInLinearTime) {
 TEST(Overlap, TouchingBallsInDecimalsPass) {
     for (const double start : {0.1, 1234.7, -98765.4}) {
         std::vector<Ball> cradle;
+        cradle.reserve(50);
         for (int k = 0; k < 50; ++k) cradle.push_back(ball_at(start + 0.2 * k, 0.3, 0.1));
         EXPECT_EQ(refusal(cradle, {}), "");
     }
@@ -235,6 +240,7 @@ TEST(WallOverlap, EqualsBruteForceForManyWalls) {
             scene.walls.push_back({from, to.cwiseMax(Vec2(-5, 0)).cwiseMin(Vec2(5, 10)), 1});
         }
         std::vector<Ball> balls;
+        balls.reserve(200);
         for (int k = 0; k < 200; ++k)
             balls.push_back(ball_at(source.uniform(-5, 5), source.uniform(0, 10), source.uniform(0.01, 0.6)));
         std::vector<Overlap> wanted;

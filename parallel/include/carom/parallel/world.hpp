@@ -86,7 +86,8 @@ class World {
     /// Sum over the ball collisions of r_ij . impulse, with r_ij the centres' offset: mass * length^2 /
     /// time^2 * time.
     [[nodiscard]] double virial() const;
-    /// PA / NkT from the virial; none unless the box is periodic on both axes and time has passed.
+    /// PA / NkT from the virial; none unless the box is periodic on both axes,
+    /// time has passed, and neither losses nor forces change the temperature.
     [[nodiscard]] std::optional<double> compressibility_factor() const;
     /// The deepest penetration of two balls, or a ball and a wall, at time(), in units of the radii's sum; 0
     /// where none overlaps.
