@@ -1,7 +1,6 @@
 // carom render: a still of a scene.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -43,8 +42,7 @@ struct RenderOptions {
 
 int render(const RenderOptions& options) {
     require_distinct(options.scene, {{"--out", options.out}});
-    Scene scene = read_scene(options.scene);
-    scene.until = std::max(scene.until, options.time);
+    const Scene scene = read_scene(options.scene);
     AtomicFile file(options.out);
     watch_for_interrupts();
     World world(scene, {.threads = options.threads});

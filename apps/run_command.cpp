@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -41,11 +40,8 @@ int run(const RunOptions& options) {
                                      {"--final", options.final_state},
                                      {"--picture", options.picture},
                                      {"--summary", options.summary}});
-    Scene scene = read_scene(options.scene);
+    const Scene scene = read_scene(options.scene);
     const double until = options.until.value_or(scene.until);
-    // Never shortened: the engine's unit of time depends on it in a scene of astronomic length, and with it
-    // the last bits.
-    scene.until = std::max(scene.until, until);
     RunOutputs outputs(options);
     watch_for_interrupts();
     World world(scene, {.threads = options.threads, .cell_size = options.cell_size});

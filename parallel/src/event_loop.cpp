@@ -46,7 +46,7 @@ EventLoop::EventLoop(const Physics& physics, std::span<const Ball> balls, std::s
     }
     obstacles_ = ObstacleMap(grid_, balls, walls, largest_listed_radius_);
     if (!large_.empty()) obstacles_of_large_ = ObstacleMap(grid_, balls, walls, largest_radius);
-    if (physics.contact_time > 0) last_collision_.assign(n, {std::numeric_limits<std::int32_t>::min(), 0});
+    if (physics.contact_time > 0) last_collision_.assign(n, {std::numeric_limits<std::int64_t>::min(), 0});
 }
 
 std::unique_ptr<EventLoop> make_event_loop(const Physics& physics, std::span<const Ball> balls,

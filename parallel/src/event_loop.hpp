@@ -39,6 +39,8 @@ struct alignas(64) Anchor {
     CellCoordinates cell;      ///< in the frame of the anchor's position: unfolded
 };
 
+static_assert(sizeof(Anchor) == 64);
+
 /// What a ball will meet next as far as is known.
 struct NextEvent {
     Time time = kNever;
@@ -107,7 +109,7 @@ class EventLoop {
     std::vector<CellCoordinates> periods_;  // how many periods the frame of the anchor is from that of time 0
     std::vector<Wall> walls_;
 
-    std::int32_t epoch_ = 0;
+    std::int64_t epoch_ = 0;
     double now_ = 0;  // since the start of the epoch
     std::uint64_t events_at_once_ = 0;
     Counts counts_;

@@ -19,7 +19,7 @@ namespace carom {
 
 /// How accelerations differ from ball to ball. Pairs under one common acceleration move straight relative to
 /// each other.
-enum class Acceleration { kNone, kUniform, kPerBall };
+enum class Acceleration : std::uint8_t { kNone, kUniform, kPerBall };
 
 template <Acceleration kAcceleration>
 class EventLoopOf final : public EventLoop {
@@ -111,7 +111,7 @@ class EventLoopOf final : public EventLoop {
 
     // Events.
     void run_until(double end, bool inclusive);
-    void start_next_epoch(std::int32_t epoch);
+    void start_next_epoch(std::int64_t epoch);
     [[nodiscard]] std::uint64_t most_events_at_once() const {
         return 10'000 + 64 * std::uint64_t{ball_total()};
     }
@@ -346,7 +346,7 @@ void EventLoopOf<A>::advance_to(const Time& end) {
         run_until(clock_.epoch_length(), false);
         const double epochs = std::floor(queue_.first_key() / clock_.epoch_length());
         start_next_epoch(epochs < double(end.epoch - epoch_)
-                             ? epoch_ + std::max(1, static_cast<std::int32_t>(epochs))
+                             ? epoch_ + std::max(std::int64_t{1}, static_cast<std::int64_t>(epochs))
                              : end.epoch);
     }
     run_until(end.offset, true);
@@ -380,7 +380,7 @@ void EventLoopOf<A>::refuse_wedged(std::uint32_t i) const {
 }
 
 template <Acceleration A>
-void EventLoopOf<A>::start_next_epoch(std::int32_t epoch) {
+void EventLoopOf<A>::start_next_epoch(std::int64_t epoch) {
     const double passed = clock_.epoch_length() * (double(epoch) - double(epoch_));
     epoch_ = epoch;
     now_ = 0;

@@ -11,8 +11,6 @@ namespace {
 // An epoch is so many times what a ball needs to cross its own diameter: long enough that its end costs
 // nothing, short enough that the last bit of an offset is far below the last bit of a position.
 constexpr double kEpochCrossings = 16;
-// At most so many epochs up to the scene's end; the count is a 32-bit integer.
-constexpr double kMostEpochs = 1 << 20;
 
 // The TC model's default contact time: so much of the time in which a ball at the root-mean-square speed
 // crosses a diameter...
@@ -100,8 +98,7 @@ Physics derive_physics(const Scene& scene, std::span<const Ball> balls) {
     p.restitution_rule = scene.restitution_rule;
     p.speed_factor = scene.speed_factor;
     const double natural = std::min(crossing_time, falling_time);
-    p.clock = Clock(
-        std::max(kEpochCrossings * (std::isfinite(natural) ? natural : 1.0), scene.until / kMostEpochs));
+    p.clock = Clock(kEpochCrossings * (std::isfinite(natural) ? natural : 1.0));
     p.loses_energy = loses_energy(scene, balls);
     const double derived = std::min(kContactCrossings * crossing_time, kContactFalls * falling_time);
     p.contact_time = scene.contact_time.value_or(p.loses_energy && std::isfinite(derived) ? derived : 0.0);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -40,9 +41,9 @@ struct Fault {
     std::function<void(Scene&)> make;
 };
 
-void PrintTo(const Fault& fault, std::ostream* out) {
-    *out << fault.message;
-}  // NOLINT(readability-identifier-naming)
+std::ostream& operator<<(std::ostream& out, const Fault& fault) {
+    return out << fault.message;
+}
 
 class SceneFault : public testing::TestWithParam<Fault> {};
 

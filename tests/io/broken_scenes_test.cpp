@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(CAROM_SOURCE_DIR) / "tests/io/broken_scenes";
+const fs::path folder = fs::path(CAROM_SOURCE_DIR) / "tests/io/broken_scenes";
 
 // "{folder}" stands for the folder's path.
-const std::map<std::string, std::string> kMessages = {
+const std::map<std::string, std::string> messages = {
     {"attractor_softening", R"(attractors[0].softening: must be >= 0, is -1)"},
     {"attractor_strenght", R"(attractors[0].strenght: unknown key, did you mean "strength"?)"},
     {"ball_mass_overflows", R"(line 2, column 46: number overflow parsing '1e999')"},
@@ -85,13 +85,13 @@ const std::map<std::string, std::string> kMessages = {
 
 TEST(BrokenScenes, AreEachRefusedWithTheirLine) {
     std::size_t seen = 0;
-    for (const auto& [name, pattern] : kMessages) {
+    for (const auto& [name, pattern] : messages) {
         SCOPED_TRACE(name);
         std::string expected = pattern;
         if (const auto mark = expected.find("{folder}"); mark != std::string::npos)
-            expected.replace(mark, 8, kFolder.string());
+            expected.replace(mark, 8, folder.string());
         try {
-            (void)read_scene(kFolder / (name + ".json"));
+            (void)read_scene(folder / (name + ".json"));
             ADD_FAILURE() << "accepted";
         } catch (const SceneError& error) {
             EXPECT_EQ(error.what(), expected);
@@ -103,9 +103,9 @@ TEST(BrokenScenes, AreEachRefusedWithTheirLine) {
 }
 
 TEST(BrokenScenes, AllHaveALine) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(kFolder)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         if (entry.path().extension() != ".json") continue;
-        EXPECT_TRUE(kMessages.contains(entry.path().stem().string())) << entry.path();
+        EXPECT_TRUE(messages.contains(entry.path().stem().string())) << entry.path();
     }
 }
 
@@ -118,9 +118,9 @@ TEST(BrokenScenes, MissingFileAndFolderAreNamedWithTheReason) {
         }
         return "accepted";
     };
-    const fs::path missing = kFolder / "missing.json";
+    const fs::path missing = folder / "missing.json";
     EXPECT_EQ(message(missing), missing.string() + ": cannot be read: No such file or directory");
-    EXPECT_EQ(message(kFolder), kFolder.string() + ": cannot be read: Is a directory");
+    EXPECT_EQ(message(folder), folder.string() + ": cannot be read: Is a directory");
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST_F(SceneSchema, AcceptsEveryShippedScene) {
 
 using Cases = std::vector<std::pair<bool, std::string>>;  // is it right? and the members
 
-const Cases kWhole = {
+const Cases whole = {
     {true, R"("balls": [{"position": [0, 0]}], "until": 1)"},
     {false, R"("balls": [{"position": [0, 0]}])"},
     {false, R"("until": 1)"},
@@ -72,7 +72,7 @@ const Cases kWhole = {
     {false, R"("until": -1, "balls": [{"position": [0, 0]}])"},
     {true, R"("until": 0, "balls": [{"position": [0, 0]}])"},
 };
-const Cases kBesideBallsAndUntil = {
+const Cases beside_balls_and_until = {
     {true, R"("name": "x", "description": "y", "$schema": "z")"},
     {false, R"("name": 1)"},
     {false, R"("colour": "red")"},
@@ -106,7 +106,7 @@ const Cases kBesideBallsAndUntil = {
     {false, R"("attractors": [{"position": [3, 3]}])"},
     {false, R"("attractors": [{"position": [3, 3], "strength": 1, "softening": -1}])"},
 };
-const Cases kBesideUntil = {
+const Cases beside_until = {
     {false, R"("balls": [])"},
     {false, R"("fill": [])"},
     {true, R"("balls": [], "fill": [{"count": 1, "region": {"min": [0, 0], "max": [9, 9]}}])"},
@@ -124,7 +124,7 @@ const Cases kBesideUntil = {
     {false, R"("balls_file": "")"},
     {false, R"("balls_file": 7)"},
 };
-const Cases kFills = {
+const Cases fills = {
     {true, R"("count": 3)"},
     {true, R"("count": 3.0)"},
     {true, R"("count": 1e2)"},
@@ -164,10 +164,10 @@ TEST_F(SceneSchema, AgreesWithTheReader) {
             EXPECT_EQ(reader_accepts(scene), sound) << scene;
         }
     };
-    compare(kWhole, "{{{}}}");
-    compare(kBesideBallsAndUntil, R"({{{}, "balls": [{{"position": [0, 0]}}], "until": 1}})");
-    compare(kBesideUntil, R"({{{}, "until": 1}})");
-    compare(kFills, R"({{"until": 1, "fill": [{{"region": {{"min": [0, 0], "max": [50, 50]}}, {}}}]}})");
+    compare(whole, "{{{}}}");
+    compare(beside_balls_and_until, R"({{{}, "balls": [{{"position": [0, 0]}}], "until": 1}})");
+    compare(beside_until, R"({{{}, "until": 1}})");
+    compare(fills, R"({{"until": 1, "fill": [{{"region": {{"min": [0, 0], "max": [50, 50]}}, {}}}]}})");
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ class BruteForce {
         Ball ball;
         Vec2 acceleration;
         Time anchor;
-        Time last_collision{std::numeric_limits<std::int32_t>::min(), 0};
+        Time last_collision{std::numeric_limits<std::int64_t>::min(), 0};
     };
     struct Entry {
         Time time = kNever;

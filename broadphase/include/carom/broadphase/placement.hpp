@@ -28,7 +28,7 @@ namespace carom {
 /// `fill[k].radius`,
 /// `.count` or `.packing_fraction`, where discs do not fit; near the limit (packing above some 0.82 of mixed
 /// sizes, above 0.88 of equal ones) also where the bounded search finds no arrangement. Cost: about linear;
-/// memory some 130 bytes a ball.
+/// memory some 150 bytes a ball.
 [[nodiscard]] std::vector<Ball> place_balls(const Scene& scene);
 
 }  // namespace carom

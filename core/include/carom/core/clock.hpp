@@ -10,7 +10,7 @@ namespace carom {
 
 /// A point in time: epoch * length + offset, with 0 <= offset < length. The length belongs to the Clock.
 struct Time {
-    std::int32_t epoch = 0;
+    std::int64_t epoch = 0;
     double offset = 0;
 
     friend bool operator==(const Time&, const Time&) = default;
@@ -21,7 +21,7 @@ struct Time {
 };
 
 /// A time that never comes.
-inline constexpr Time kNever{std::numeric_limits<std::int32_t>::max(),
+inline constexpr Time kNever{std::numeric_limits<std::int64_t>::max(),
                              std::numeric_limits<double>::infinity()};
 
 /// Adds and subtracts times. The epoch's length is a power of two, so that multiples of it are exact. All
@@ -52,7 +52,7 @@ class Clock {
     }
 
     /// Seconds from `base`'s start to `t`: exact for t within that epoch, rounded but in order beyond it.
-    [[nodiscard]] double since_epoch(const Time& t, std::int32_t base) const {
+    [[nodiscard]] double since_epoch(const Time& t, std::int64_t base) const {
         return t.epoch == base ? t.offset : t.offset + length_ * (double(t.epoch) - double(base));
     }
 
@@ -60,12 +60,13 @@ class Clock {
     [[nodiscard]] double to_seconds(const Time& t) const { return since_epoch(t, 0); }
 
  private:
-    [[nodiscard]] Time normalised(std::int32_t epoch, double offset) const {
+    [[nodiscard]] Time normalised(std::int64_t epoch, double offset) const {
         const double epochs = std::floor(offset * inverse_);
-        if (!(double(epoch) + epochs < double(kNever.epoch))) return kNever;
-        return {static_cast<std::int32_t>(double(epoch) + epochs), offset - epochs * length_};
+        if (!(double(epoch) + epochs < kEpochs)) return kNever;
+        return {static_cast<std::int64_t>(double(epoch) + epochs), offset - epochs * length_};
     }
 
+    static constexpr double kEpochs = 0x1p52;  // so many and their differences are exact in double
     double length_ = 1;
     double inverse_ = 1;
 };

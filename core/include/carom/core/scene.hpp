@@ -15,10 +15,10 @@
 namespace carom {
 
 /// How two restitutions, one of each body, become the one of the pair.
-enum class RestitutionRule { kMin, kMax, kProduct, kMean, kGeometric };
+enum class RestitutionRule : std::uint8_t { kMin, kMax, kProduct, kMean, kGeometric };
 
 /// What happens at a pair of opposite sides of the domain.
-enum class Boundary { kWall, kPeriodic, kOpen };
+enum class Boundary : std::uint8_t { kWall, kPeriodic, kOpen };
 
 /// A disc. `acceleration` is its own, added to the scene's gravity. A static ball never moves and has, in
 /// effect, infinite mass.

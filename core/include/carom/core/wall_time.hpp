@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 
 #include <carom/core/compensated.hpp>
@@ -18,7 +19,7 @@
 namespace carom {
 
 /// The part of a wall that is hit.
-enum class WallFeature { kFace, kFrom, kTo };
+enum class WallFeature : std::uint8_t { kFace, kFrom, kTo };
 
 template <class T>
 struct WallHit {

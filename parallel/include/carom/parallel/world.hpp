@@ -14,7 +14,7 @@
 
 namespace carom {
 
-enum class CollisionKind { kBall, kWall };
+enum class CollisionKind : std::uint8_t { kBall, kWall };
 
 /// One resolved collision. `j` is a ball's id for kBall (i < j, or j is static), a wall's index for kWall;
 /// the domain's sides are numbered after the scene's walls: left, right, bottom, top.
