@@ -13,6 +13,7 @@ int main() {
 
     carom::World world(scene);
     for (int frame = 0; frame < 60; ++frame) world.step(1.0 / 60);
-    std::cout << world.counts().ball_collisions << " collision(s), then\n" << world.positions() << '\n';
+    std::cout << world.counts().ball_collisions << " collision(s), then\n";
+    for (const carom::Vec2& p : world.positions()) std::cout << p.transpose() << '\n';
     return world.counts().ball_collisions == 0 ? 1 : 0;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace carom {
 namespace {
@@ -45,14 +46,8 @@ struct CoordinateRange {
     std::int32_t last;
 };
 
-// Coordinates of the cells that [low, high] meets; all storage cells once where that is more than an axis
-// without period has.
 CoordinateRange cells_between(const GridAxis& axis, Range r) {
-    const std::int32_t first = axis.coordinate(r.low);
-    const std::int32_t last = axis.coordinate(r.high);
-    return {first, axis.periodic() ? last
-                                   : static_cast<std::int32_t>(std::min<std::int64_t>(
-                                         last, std::int64_t{first} + axis.count() - 1))};
+    return {axis.coordinate(r.low), axis.coordinate(r.high)};
 }
 
 std::int16_t shift_of(const GridAxis& axis, std::int32_t coordinate) {
@@ -68,7 +63,9 @@ void for_each_cell(const Grid& grid, Range rows, double reach, InBand&& in_band,
     for (std::int32_t y = ys.first; y <= ys.last; ++y) {
         const Range x = in_band(Range{grid.y.border(y) - reach, grid.y.border(y + 1) + reach});
         if (x.low > x.high) continue;
-        const CoordinateRange xs = cells_between(grid.x, {x.low - reach, x.high + reach});
+        CoordinateRange xs = cells_between(grid.x, {x.low - reach, x.high + reach});
+        // On an axis without period the fold meets every storage cell of the row once in `count` steps.
+        if (!grid.x.periodic()) xs.last = std::min(xs.last, xs.first + grid.x.count() - 1);
         for (std::int32_t k = xs.first; k <= xs.last; ++k)
             enter(grid.index({k, y}), shift_of(grid.x, k), shift_of(grid.y, y));
     }
@@ -113,13 +110,19 @@ ObstacleMap::ObstacleMap(const Grid& grid, std::span<const Ball> balls, std::spa
             enter(static_cast<std::uint32_t>(balls.size()) + w));
     }
     if (placed.empty()) return;
-    // Counting sort by cell keeps each cell's entries in the order of the ids.
+    // Rows that fold into one another enter a cell twice.
+    const auto key = [](const Placed& p) {
+        return std::tuple(p.cell, p.entry.id, p.entry.shift_x, p.entry.shift_y);
+    };
+    std::ranges::sort(placed, {}, key);
+    const auto repeated = std::ranges::unique(placed, {}, key);
+    placed.erase(repeated.begin(), repeated.end());
     first_.assign(static_cast<std::size_t>(grid.cell_count()) + 1, 0);
-    for (const Placed& p : placed) ++first_[p.cell + 1];
+    for (const Placed& p : placed) {
+        ++first_[p.cell + 1];
+        entries_.push_back(p.entry);
+    }
     for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    entries_.resize(placed.size());
-    for (const Placed& p : placed) entries_[next[p.cell]++] = p.entry;
 }
 
 }  // namespace carom

@@ -31,8 +31,11 @@ EventLoop::EventLoop(const Physics& physics, std::span<const Ball> balls, std::s
         is_static_.push_back(b.is_static ? 1 : 0);
         own_acceleration_.push_back(b.acceleration);
         Anchor& a = anchors_[i];
-        const double x = grid_.x.wrapped(b.position.x(), periods_[i].x);
-        const double y = grid_.y.wrapped(b.position.y(), periods_[i].y);
+        std::int32_t periods_x = 0;
+        std::int32_t periods_y = 0;
+        const double x = grid_.x.wrapped(b.position.x(), periods_x);
+        const double y = grid_.y.wrapped(b.position.y(), periods_y);
+        periods_[i] = {periods_x, periods_y};
         a = {x, y, b.velocity.x(), b.velocity.y(), {}, 0, 0, grid_.coordinates({x, y})};
         a.storage = grid_.index(a.cell);
         if (b.is_static) continue;

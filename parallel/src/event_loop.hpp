@@ -51,6 +51,12 @@ struct NextEvent {
     std::int32_t image_y = 0;
 };
 
+/// How many periods a ball has passed since time 0.
+struct Periods {
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+};
+
 /// When a ball leaves its cell, and to which side.
 struct Crossing {
     double time = 0;  ///< since the start of the current epoch
@@ -104,9 +110,9 @@ class EventLoop {
     std::vector<double> restitution_;
     std::vector<std::uint8_t> is_static_;
     std::vector<Vec2> own_acceleration_;
-    std::vector<Vec2> acceleration_;        // the present one; only where it differs from ball to ball
-    std::vector<Time> last_collision_;      // only where the contact time is not 0
-    std::vector<CellCoordinates> periods_;  // how many periods the frame of the anchor is from that of time 0
+    std::vector<Vec2> acceleration_;    // the present one; only where it differs from ball to ball
+    std::vector<Time> last_collision_;  // only where the contact time is not 0
+    std::vector<Periods> periods_;      // how many periods the frame of the anchor is from that of time 0
     std::vector<Wall> walls_;
 
     std::int64_t epoch_ = 0;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -82,10 +83,14 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] bool is_large(std::uint32_t i) const { return radius_[i] > largest_listed_radius_; }
     /// How many cells away a ball may be and yet be touched before either centre crosses a border.
     [[nodiscard]] static std::int32_t reach(const GridAxis& axis, double radius_sum) {
-        return 1 + static_cast<std::int32_t>(radius_sum * (1 + kCellMargin) / axis.width());
+        constexpr double kMost = 1 << 28;
+        return 1 + static_cast<std::int32_t>(std::min(kMost, radius_sum * (1 + kCellMargin) / axis.width()));
     }
     [[nodiscard]] std::int32_t cell_reach(const GridAxis& axis, std::uint32_t i) const {
         return is_large(i) ? reach(axis, radius_[i] + largest_listed_radius_) : 1;
+    }
+    [[nodiscard]] bool reaches_all(std::int32_t reach_x, std::int32_t reach_y) const {
+        return reach_x > 1 && (2.0 * reach_x + 1) * (2.0 * reach_y + 1) > grid_.cell_count();
     }
     /// The images of a ball `offset` cells behind that lie within `reach` cells: first and last, none when
     /// the first is greater.
@@ -100,6 +105,10 @@ class EventLoopOf final : public EventLoop {
     void consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best);
     template <bool kTellNeighbours>
     void scan_large(std::uint32_t i, NextEvent& best);
+    template <bool kTellNeighbours>
+    void scan_listed(std::uint32_t i, NextEvent& best);
+    template <bool kTellNeighbours>
+    void consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best);
     void relist(std::uint32_t i, CellCoordinates cell);
     template <bool kTellNeighbours>
     void scan_cell(std::uint32_t i, CellCoordinates cell, NextEvent& best);
@@ -113,7 +122,7 @@ class EventLoopOf final : public EventLoop {
     void run_until(double end, bool inclusive);
     void start_next_epoch(std::int64_t epoch);
     [[nodiscard]] std::uint64_t most_events_at_once() const {
-        return 10'000 + 64 * std::uint64_t{ball_total()};
+        return 2'000'000 + 64 * std::uint64_t{ball_total()};
     }
     [[noreturn]] void refuse_wedged(std::uint32_t i) const;
     void cross(std::uint32_t i);
@@ -246,21 +255,33 @@ void EventLoopOf<A>::scan_cell(std::uint32_t i, CellCoordinates cell, NextEvent&
     });
 }
 
-/// The large balls, which are in no cell's list: those whose cells lie so near that a contact could come
-/// before the next crossing.
+/// Ball j in all its images that lie so near that a contact could come before either centre crosses a border.
+template <Acceleration A>
+template <bool kTellNeighbours>
+void EventLoopOf<A>::consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best) {
+    if (j == i) return;
+    const double sum = radius_[i] + radius_[j];
+    const CellCoordinates& a = anchors_[i].cell;
+    const CellCoordinates& b = anchors_[j].cell;
+    const auto [first_x, last_x] = images_within(grid_.x, a.x - b.x, reach(grid_.x, sum));
+    const auto [first_y, last_y] = images_within(grid_.y, a.y - b.y, reach(grid_.y, sum));
+    for (std::int32_t x = first_x; x <= last_x; ++x)
+        for (std::int32_t y = first_y; y <= last_y; ++y) consider<kTellNeighbours>(i, j, {x, y}, best);
+}
+
+/// The large balls, which are in no cell's list.
 template <Acceleration A>
 template <bool kTellNeighbours>
 void EventLoopOf<A>::scan_large(std::uint32_t i, NextEvent& best) {
-    for (const std::uint32_t j : large_) {
-        if (j == i) continue;
-        const double sum = radius_[i] + radius_[j];
-        const auto [first_x, last_x] =
-            images_within(grid_.x, anchors_[i].cell.x - anchors_[j].cell.x, reach(grid_.x, sum));
-        const auto [first_y, last_y] =
-            images_within(grid_.y, anchors_[i].cell.y - anchors_[j].cell.y, reach(grid_.y, sum));
-        for (std::int32_t x = first_x; x <= last_x; ++x)
-            for (std::int32_t y = first_y; y <= last_y; ++y) consider<kTellNeighbours>(i, j, {x, y}, best);
-    }
+    for (const std::uint32_t j : large_) consider_images<kTellNeighbours>(i, j, best);
+}
+
+/// All other balls, for a ball so large that the cells within its reach are more than there are.
+template <Acceleration A>
+template <bool kTellNeighbours>
+void EventLoopOf<A>::scan_listed(std::uint32_t i, NextEvent& best) {
+    for (std::uint32_t j = 0; j < ball_total(); ++j)
+        if (!is_static_[j] && !is_large(j)) consider_images<kTellNeighbours>(i, j, best);
 }
 
 template <Acceleration A>
@@ -297,9 +318,13 @@ NextEvent EventLoopOf<A>::search(std::uint32_t i) {
     const CellCoordinates c = anchors_[i].cell;
     const std::int32_t reach_x = cell_reach(grid_.x, i);
     const std::int32_t reach_y = cell_reach(grid_.y, i);
-    for (std::int32_t y = c.y - reach_y; y <= c.y + reach_y; ++y)
-        for (std::int32_t x = c.x - reach_x; x <= c.x + reach_x; ++x)
-            scan_cell<kTellNeighbours>(i, {x, y}, best);
+    if (reaches_all(reach_x, reach_y)) {
+        scan_listed<kTellNeighbours>(i, best);
+    } else {
+        for (std::int32_t y = c.y - reach_y; y <= c.y + reach_y; ++y)
+            for (std::int32_t x = c.x - reach_x; x <= c.x + reach_x; ++x)
+                scan_cell<kTellNeighbours>(i, {x, y}, best);
+    }
     scan_large<kTellNeighbours>(i, best);
     scan_obstacles(i, best);
     return best;
@@ -371,12 +396,14 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
     }
 }
 
-/// Many balls may meet at one instant, each a bounded number of times: a ball that goes on is squeezed
-/// without room to move.
+/// Many balls may meet at one instant, in a row of touching balls (N / 2)^2 times; what goes on has no end.
 template <Acceleration A>
 void EventLoopOf<A>::refuse_wedged(std::uint32_t i) const {
-    throw std::runtime_error("balls[" + std::to_string(i) + "]: is wedged: its collisions at time " +
-                             std::to_string(clock_.to_seconds(time_now())) + " do not end");
+    std::ostringstream what;
+    what << "balls[" << i << "]: is wedged: more than " << most_events_at_once() << " events at time "
+         << clock_.to_seconds(time_now())
+         << " (it has no room to move, or loses energy without a contact_time)";
+    throw std::runtime_error(what.str());
 }
 
 template <Acceleration A>
@@ -399,11 +426,16 @@ void EventLoopOf<A>::cross(std::uint32_t i) {
     Anchor& a = anchors_[i];
     const Crossing crossing = crossings_[i];
     relist(i, {a.cell.x + crossing.dx, a.cell.y + crossing.dy});
+    if (std::max(std::abs(a.cell.x), std::abs(a.cell.y)) >= GridAxis::kFarthest)
+        throw std::runtime_error("balls[" + std::to_string(i) +
+                                 "]: flies more than a thousand million cells without an event");
     NextEvent best = next_[i];
     // The row of cells that comes into view.
     const std::int32_t reach_x = cell_reach(grid_.x, i);
     const std::int32_t reach_y = cell_reach(grid_.y, i);
-    if (crossing.dx != 0) {
+    if (reaches_all(reach_x, reach_y)) {
+        scan_listed<true>(i, best);
+    } else if (crossing.dx != 0) {
         for (std::int32_t k = -reach_y; k <= reach_y; ++k)
             scan_cell<true>(i, {a.cell.x + crossing.dx * reach_x, a.cell.y + k}, best);
     } else {
@@ -441,8 +473,9 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     const Vec2 x = position_at(m, since);
     const Vec2 v = velocity_at(m, since);
     Image wrapped;
-    a.x = grid_.x.wrapped(x.x(), wrapped.x);
-    a.y = grid_.y.wrapped(x.y(), wrapped.y);
+    const Vec2 inside = {grid_.x.wrapped(x.x(), wrapped.x), grid_.y.wrapped(x.y(), wrapped.y)};
+    a.x = inside.x();
+    a.y = inside.y();
     a.vx = v.x();
     a.vy = v.y();
     a.time = t;
@@ -569,7 +602,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
         if (pressure > 0) separation = pressure / length * physics_.rest_time / 2;
     }
     const double factor = physics_.contact_time > 0 && lasting != restitution ? 1 : physics_.speed_factor;
-    Vec2 after = bounce<double>(before, normal, lasting, separation);
+    Vec2 after = bounce<double>(before, normal, lasting, separation / factor);
     if (factor != 1) after *= factor;
     a.vx = after.x();
     a.vy = after.y();
@@ -631,6 +664,10 @@ void EventLoopOf<A>::update_field(const Time& t, std::span<const Attractor> attr
                     acceleration_[i] = physics_.gravity + own_acceleration_[i] +
                                        field_at(attractors, {anchors_[i].x, anchors_[i].y});
         });
+        for (std::uint32_t i = 0; i < ball_total(); ++i)
+            if (!std::isfinite(length_squared(acceleration_[i])))
+                throw std::runtime_error("balls[" + std::to_string(i) +
+                                         "]: the attractors' pull on it is too large for a number");
     }
     predict_all();
 }
@@ -653,7 +690,8 @@ Ball EventLoopOf<A>::ball_at(std::uint32_t id, const Time& t) const {
 template <Acceleration A>
 Vec2 EventLoopOf<A>::unwrapped_position_at(std::uint32_t id, const Time& t) const {
     const Vec2 x = position_at(motion_of(id), clock_.difference(t, anchors_[id].time));
-    return x + offset_of({periods_[id].x, periods_[id].y});
+    return {x.x() + double(periods_[id].x) * grid_.x.length(),
+            x.y() + double(periods_[id].y) * grid_.y.length()};
 }
 
 template <Acceleration A>

@@ -21,6 +21,9 @@ constexpr double kContactFalls = 1e-2;
 // a diameter.
 constexpr double kRestFalls = 1e-4;
 
+// More renewals of the field than that no run survives.
+constexpr double kMostFieldUpdates = 1e9;
+
 struct Scales {
     double diameter = 1;      // mean of the moving balls
     double speed = 0;         // root mean square
@@ -92,12 +95,16 @@ Physics derive_physics(const Scene& scene, std::span<const Ball> balls) {
     const double crossing_time = s.speed > 0 ? s.diameter / s.speed : kInfinity;
     const double falling_time = s.acceleration > 0 ? std::sqrt(s.diameter / s.acceleration) : kInfinity;
 
+    if (!scene.attractors.empty() && scene.until > kMostFieldUpdates * scene.field_interval)
+        throw SceneError("field_interval", "must be at least 1e-9 of until");
+
     Physics p;
     p.domain = scene.domain ? *scene.domain : bounding_domain(scene, balls);
     p.gravity = scene.gravity;
     p.restitution_rule = scene.restitution_rule;
     p.speed_factor = scene.speed_factor;
     const double natural = std::min(crossing_time, falling_time);
+    if (!(natural > 0)) throw SceneError("attractors", "pull so hard on a ball that no time is short enough");
     p.clock = Clock(kEpochCrossings * (std::isfinite(natural) ? natural : 1.0));
     p.loses_energy = loses_energy(scene, balls);
     const double derived = std::min(kContactCrossings * crossing_time, kContactFalls * falling_time);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <sstream>
 #include <stdexcept>
 
 #include <carom/broadphase/overlap.hpp>
@@ -55,6 +56,12 @@ struct CompensatedSum {
     }
     [[nodiscard]] double value() const { return sum + lost; }
 };
+
+std::string shown(double number) {
+    std::ostringstream text;
+    text << number;
+    return text.str();
+}
 
 /// A mixing step of 64 bits (the finaliser of MurmurHash3).
 std::uint64_t mix(std::uint64_t h) {
@@ -107,8 +114,8 @@ class World::State {
     void advance_to(double time) {
         const Time end = physics.clock.from_seconds(time);
         if (end == kNever)
-            throw std::invalid_argument("time " + std::to_string(time) +
-                                        " is beyond the last epoch of this scene");
+            throw std::invalid_argument("time " + shown(time) +
+                                        " is beyond what this scene's clock can tell");
         if (!attractors.empty()) {
             for (;; ++field_updates) {
                 const double next = double(field_updates + 1) * field_interval;
@@ -143,8 +150,8 @@ World& World::operator=(World&&) noexcept = default;
 
 void World::advance_to(double time) {
     if (!(time >= state_->seconds) || !std::isfinite(time))
-        throw std::invalid_argument("cannot advance from time " + std::to_string(state_->seconds) + " to " +
-                                    std::to_string(time));
+        throw std::invalid_argument("cannot advance from time " + shown(state_->seconds) + " to " +
+                                    shown(time));
     state_->advance_to(time);
 }
 
@@ -181,19 +188,17 @@ double World::virial() const {
 }
 
 PlaneVectors World::positions() const {
-    PlaneVectors out(ball_count(), 2);
+    PlaneVectors out(ball_count());
     state_->executor.for_ranges(ball_count(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            out.row(static_cast<Eigen::Index>(i)) = state_->ball(i).position.transpose();
+        for (std::size_t i = first; i < last; ++i) out[i] = state_->ball(i).position;
     });
     return out;
 }
 
 PlaneVectors World::velocities() const {
-    PlaneVectors out(ball_count(), 2);
+    PlaneVectors out(ball_count());
     state_->executor.for_ranges(ball_count(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            out.row(static_cast<Eigen::Index>(i)) = state_->ball(i).velocity.transpose();
+        for (std::size_t i = first; i < last; ++i) out[i] = state_->ball(i).velocity;
     });
     return out;
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include <carom/io/scene_file.hpp>
@@ -87,9 +88,8 @@ TEST(ShippedScene, FunnelEmpties) {
     for (const Wall& w : scene.walls) mouth = std::min({mouth, w.from.y(), w.to.y()});
     world.advance_to(scene.until);
     const PlaneVectors x = world.positions();
-    int above = 0;
-    for (Eigen::Index i = 0; i < x.rows(); ++i) above += x(i, 1) > mouth + 1 ? 1 : 0;
-    EXPECT_LT(above, 0.2 * double(x.rows())) << "most of the balls have fallen through";
+    const auto above = std::ranges::count_if(x, [mouth](const Vec2& p) { return p.y() > mouth + 1; });
+    EXPECT_LT(double(above), 0.2 * double(x.size())) << "most of the balls have fallen through";
 }
 
 }  // namespace

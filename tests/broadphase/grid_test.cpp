@@ -203,6 +203,11 @@ TEST(ObstacleMap, ListsWhatABallCouldTouch) {
             s.walls.push_back(
                 {from, from + Vec2(uniform(random, -9, 9), k % 3 == 0 ? 0 : uniform(random, -9, 9)), 1});
         }
+        if (boundary != Boundary::kPeriodic) {  // from side to side, and out of the box
+            s.walls.push_back({{3, 0}, {11, 15}, 1});
+            s.walls.push_back({{-40, -22}, {70, 31}, 1});
+            s.walls.push_back({{20, 7}, {0, 8}, 1});
+        }
         const Grid grid = choose_grid(*s.domain, 500, 1);
         const ObstacleMap map(grid, s.balls, s.walls, 0.5);
         const int periods = boundary == Boundary::kPeriodic ? 1 : 0;

@@ -278,9 +278,10 @@ class BruteForce {
             a.acceleration.isZero(0)
                 ? 0.0
                 : -(dot(normal, a.acceleration) + (round ? length_squared(a.ball.velocity) : 0.0));
+        const double factor = lasting == e ? rules_.speed_factor : 1;
         a.ball.velocity = bounce<double>(a.ball.velocity, normal, lasting,
-                                         separation(pressure, std::sqrt(length_squared(normal))));
-        if (lasting == e && rules_.speed_factor != 1) a.ball.velocity *= rules_.speed_factor;
+                                         separation(pressure, std::sqrt(length_squared(normal))) / factor);
+        if (factor != 1) a.ball.velocity *= factor;
         a.last_collision = event.time;
         predict_row(mover);
     }

@@ -47,9 +47,10 @@ TEST(ExactSystems, CradlePassesOnWhatComes) {
         world.advance_to(10);
         EXPECT_EQ(world.counts().ball_collisions, incoming == 1 ? 4u : 6u);
         const PlaneVectors v = world.velocities();
-        for (int i = 0; i < 5; ++i) {
-            EXPECT_EQ(v(i, 0), i >= 5 - incoming ? 1.0 : 0.0) << "ball " << i << " of " << incoming << " in";
-            EXPECT_EQ(v(i, 1), 0.0);
+        for (std::size_t i = 0; i < 5; ++i) {
+            EXPECT_EQ(v[i].x(), i + static_cast<std::size_t>(incoming) >= 5 ? 1.0 : 0.0)
+                << "ball " << i << " of " << incoming << " in";
+            EXPECT_EQ(v[i].y(), 0.0);
         }
     }
 }
@@ -105,7 +106,7 @@ TEST(ExactSystems, LineOfEqualBallsIsSortedFreeFlight) {
     const PlaneVectors x = world.positions();
     // Positions reach 250; some thousand collisions each round by an ulp of that, 2.8e-14, and nothing
     // amplifies.
-    for (int i = 0; i < kBalls; ++i) EXPECT_NEAR(x(i, 0), free[i] + i, 1e-11) << "ball " << i;
+    for (int i = 0; i < kBalls; ++i) EXPECT_NEAR(x[i].x(), free[i] + i, 1e-11) << "ball " << i;
 }
 
 // All velocities reversed after a few collisions a ball, the gas goes back to where it came from.
@@ -126,7 +127,7 @@ TEST(ExactSystems, ReversalReturnsToTheStart) {
     const double side = start.domain->box.max.x();
     for (int i = 0; i < 100; ++i)
         for (int axis = 0; axis < 2; ++axis) {
-            const double error = std::remainder(x(i, axis) - start.balls[i].position[axis], side);
+            const double error = std::remainder(x[i][axis] - start.balls[i].position[axis], side);
             EXPECT_LT(std::abs(error), 1e-15 * side * std::exp(0.5 * 4) * 1e3) << "ball " << i;
         }
 }
@@ -158,7 +159,7 @@ TEST(ExactSystems, GapTurnsBackWhatIsWider) {
         s.walls = {{{-5, 0}, {-half_gap, 0}, 1}, {{half_gap, 0}, {5, 0}, 1}};
         World world(s);
         world.advance_to(10);
-        return std::pair(world.positions()(0, 1), world.counts().wall_collisions);
+        return std::pair(world.positions()[0].y(), world.counts().wall_collisions);
     };
     EXPECT_EQ(fall(0.5), std::pair(-8.0, std::uint64_t{0}));
     EXPECT_EQ(fall(std::nextafter(0.5, 1.0)).second, 0u);

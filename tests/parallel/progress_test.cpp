@@ -68,7 +68,7 @@ TEST_P(Progress, BallAtRestKeepsItsPlace) {
     World world(box_under_gravity({ball(5, 0.5)}, GetParam()));
     for (int k = 1; k <= 1000; ++k) {
         world.advance_to(0.01 * k);
-        const Vec2 x = world.positions().row(0).transpose();
+        const Vec2 x = world.positions()[0];
         const double hop = 9.81 * std::pow(GetParam() < 1 ? world.contact_time() : 1e-4, 2) / 8;
         ASSERT_NEAR(x.y(), 0.5 + hop / 2, hop / 2 + 1e-12);
         ASSERT_EQ(x.x(), 5.0);
@@ -162,6 +162,29 @@ TEST(Progress, ThousandsOfSimultaneousHits) {
     EXPECT_EQ(world.energy(), 2500);
 }
 
+// The halves of a row of touching balls fly at each other: each ball of the one passes its velocity through
+// all of the other.
+TEST(Progress, TouchingRowMeetsAtOneInstant) {
+    constexpr int kBalls = 1000;
+    Scene s;
+    s.until = 1;
+    for (int k = 0; k < kBalls; ++k) {
+        s.balls.push_back(ball(k, 0));
+        s.balls.back().velocity = {k < kBalls / 2 ? 1.0 : -1.0, 0};
+    }
+    World world(s, {.threads = 1});
+    world.advance_to(1);
+    EXPECT_EQ(world.counts().ball_collisions, std::uint64_t{kBalls} * kBalls / 4);
+    EXPECT_EQ(world.energy(), kBalls / 2.0);
+}
+
+TEST(Progress, SpeedFactorDoesNotUndoTheHop) {
+    Scene s = box_under_gravity({ball(5, 3)}, 1);
+    s.contact_time = 0;
+    s.speed_factor = 1e-3;
+    EXPECT_LE(collisions_per_contact_time(s, 10), 31'400);
+}
+
 TEST(Progress, BallWithoutRoomIsRefused) {
     Scene s = box_under_gravity({ball(5, 0.5)}, 1);
     s.walls = {{{0, 1}, {10, 1}, 1}};
@@ -171,7 +194,7 @@ TEST(Progress, BallWithoutRoomIsRefused) {
         world.advance_to(1);
         FAIL() << "advanced";
     } catch (const std::runtime_error& error) {
-        EXPECT_STREQ(error.what(), "balls[0]: is wedged: its collisions at time 0.000000 do not end");
+        EXPECT_TRUE(std::string(error.what()).starts_with("balls[0]: is wedged: more than ")) << error.what();
     }
 }
 

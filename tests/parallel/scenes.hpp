@@ -1,6 +1,7 @@
 // Scenes for the engine's tests, built in code: one for each thing that the engine does differently.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -82,6 +83,20 @@ inline std::vector<NamedScene> feature_scenes() {
     add("mixed sizes", gas(7, {.packing = 0.5, .radius_spread = 0.8}));
     add("mixed sizes inelastic walled",
         gas(8, {.boundary_x = kWall, .boundary_y = kWall, .restitution = 0.9, .radius_spread = 0.9}));
+
+    // Walls from side to side, and one that sticks out of the box on both sides: more rows of cells than the
+    // box has.
+    Scene divided = gas(18, {.packing = 0.2, .boundary_x = kWall, .boundary_y = kWall, .radius_spread = 0.5});
+    const double side = divided.domain->box.max.x();
+    divided.walls = {{{0.2 * side, 0}, {0.75 * side, side}, 1},
+                     {{-3 * side, -1.2 * side}, {4 * side, 2.5 * side}, 1}};
+    std::erase_if(divided.balls, [&](const Ball& b) {
+        return std::ranges::any_of(divided.walls, [&](const Wall& w) {
+            const Vec2 d = w.to - w.from;
+            return std::abs(cross<double>(b.position - w.from, d)) < 0.6 * std::sqrt(length_squared(d));
+        });
+    });
+    add("walls from side to side", divided);
 
     // Five balls wider than a cell: the grown ones take the place of those that they would overlap.
     const auto with_large = [](Scene s) {

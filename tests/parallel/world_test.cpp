@@ -70,8 +70,8 @@ TEST(World, ReportsACollision) {
     EXPECT_EQ(seen[0].point, Vec2(2.5, 0));
     EXPECT_EQ(seen[0].normal, Vec2(-1, 0));
     EXPECT_EQ(seen[0].impulse, 1.5);  // 2 m1 m2 / (m1 + m2) times the speed
-    EXPECT_EQ(world.velocities()(0, 0), -0.5);
-    EXPECT_EQ(world.velocities()(1, 0), 0.5);
+    EXPECT_EQ(world.velocities()[0].x(), -0.5);
+    EXPECT_EQ(world.velocities()[1].x(), 0.5);
 }
 
 TEST(World, NumbersTheDomainsSidesAfterTheWalls) {
@@ -105,8 +105,8 @@ TEST(World, SpeedFactorTakesWholeVelocityAtWallsOnly) {
     s.balls[1].position = {8, 1};
     World world(s);
     world.advance_to(1.25);  // the ceiling is met at 1.125
-    EXPECT_EQ(world.velocities()(0, 0), 1.5);
-    EXPECT_EQ(world.velocities()(0, 1), -2);
+    EXPECT_EQ(world.velocities()[0].x(), 1.5);
+    EXPECT_EQ(world.velocities()[0].y(), -2);
 }
 
 // A bullet of a million radii a second meets a thin row of balls and a wall, whatever the step.
@@ -140,6 +140,29 @@ TEST(World, ValidatesAsSoundThroughARun) {
     }
 }
 
+// A ball of any size among small ones in the open: what it meets does not depend on how many cells it covers.
+TEST(World, LargeBallOfAnySizeMeetsTheSmallOnes) {
+    for (const double radius : {1.0, 1e2, 1e4, 1e9}) {
+        Scene s;
+        s.until = 2;
+        s.domain = Domain{{{0, 0}, {1, 1}}, {Boundary::kOpen, Boundary::kOpen}, 1};
+        for (int k = 0; k < 100; ++k) {
+            s.balls.emplace_back();
+            s.balls.back().radius = 0.01;
+            s.balls.back().position = {0.1 * (k % 10) + 0.05, 0.1 * (k / 10) + 0.05};
+        }
+        s.balls.emplace_back();
+        s.balls.back().radius = radius;
+        s.balls.back().mass = 1e6;
+        s.balls.back().position = {radius + 2, 0.5};
+        s.balls.back().velocity = {-1, 0};
+        World world(s);
+        world.advance_to(2);
+        EXPECT_GE(world.counts().ball_collisions, 50u) << radius;
+        EXPECT_LT(world.max_overlap(), 1e-7) << radius;
+    }
+}
+
 TEST(World, EmptyAndStaticWorldsStandStill) {
     Scene s;
     s.until = 1;
@@ -155,7 +178,7 @@ TEST(World, EmptyAndStaticWorldsStandStill) {
     World still(s);
     still.advance_to(1e6);
     EXPECT_EQ(still.counts().events, 0u);
-    EXPECT_EQ(still.positions()(2, 0), 1.0);
+    EXPECT_EQ(still.positions()[2].x(), 1.0);
 }
 
 TEST(World, RefusesOverlappingBalls) {

@@ -29,6 +29,9 @@ class GridAxis {
           count_(count),
           periodic_(periodic) {}
 
+    /// No coordinate is further from 0 than this.
+    static constexpr std::int32_t kFarthest = 1 << 30;
+
     [[nodiscard]] bool periodic() const { return periodic_; }
     [[nodiscard]] std::int32_t count() const { return count_; }
     [[nodiscard]] double min() const { return min_; }
@@ -71,7 +74,6 @@ class GridAxis {
     }
 
  private:
-    static constexpr std::int32_t kFarthest = 1 << 30;
     static constexpr std::int32_t kOuterCells = std::numeric_limits<double>::max_exponent;
 
     /// Complete outer cells within `distance` >= 0, in widths: the m-th ends at 2^m - 1.

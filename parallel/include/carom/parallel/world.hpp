@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include <carom/core/scene.hpp>
 
 namespace carom {
@@ -45,8 +43,11 @@ struct Violation {
     std::string what;
 };
 
-/// N x 2, one row a ball, in the order of the ids.
-using PlaneVectors = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+/// One vector a ball, in the order of the ids: N pairs of doubles without gaps. A std::vector rather than a
+/// matrix of Eigen's, whose way of allocating changes with the instruction set that the library was built
+/// for; to have the N x 2 matrix, Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 2,
+/// Eigen::RowMajor>>(p[0].data(), p.size(), 2).
+using PlaneVectors = std::vector<Vec2>;
 
 class World {
  public:
