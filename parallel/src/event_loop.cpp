@@ -1,9 +1,11 @@
-// What all kernels of the event loop share: the tables of the balls, and the choice of the kernel.
+// Sets up the tables of the event loop, reads its state, and chooses the kernel.
 #include "event_loop.hpp"
 
 #include <limits>
 
+#include "event_loop_events.hpp"
 #include "event_loop_of.hpp"
+#include "event_loop_search.hpp"
 
 namespace carom {
 
@@ -50,6 +52,86 @@ EventLoop::EventLoop(const Physics& physics, std::span<const Ball> balls, std::s
     obstacles_ = ObstacleMap(grid_, balls, walls, largest_listed_radius_);
     if (!large_.empty()) obstacles_of_large_ = ObstacleMap(grid_, balls, walls, largest_radius);
     if (physics.contact_time > 0) last_collision_.assign(n, {std::numeric_limits<std::int64_t>::min(), 0});
+}
+
+// ----------------------------------------------------------------------------------------------------
+
+template <Acceleration A>
+EventLoopOf<A>::EventLoopOf(const Physics& physics, std::span<const Ball> balls, std::span<const Wall> walls,
+                            std::span<const Attractor> attractors, const Grid& grid, const Executor& executor)
+    : EventLoop(physics, balls, walls, grid, executor) {
+    if constexpr (A == Acceleration::kPerBall) {
+        acceleration_.assign(balls.size(), Vec2::Zero());
+        update_field({}, attractors);
+    } else {
+        predict_all();
+    }
+}
+
+template <Acceleration A>
+void EventLoopOf<A>::update_field(const Time& t, std::span<const Attractor> attractors) {
+    now_ = std::max(now_, clock_.since_epoch(t, epoch_));
+    if constexpr (A == Acceleration::kPerBall) {
+        for (std::uint32_t i = 0; i < ball_total(); ++i) {
+            if (is_static_[i]) continue;
+            advance(i, t);
+            settle(i);
+            ++counts_.events;
+        }
+        executor_.for_ranges(ball_total(), 1024, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                if (!is_static_[i])
+                    acceleration_[i] = physics_.gravity + own_acceleration_[i] +
+                                       field_at(attractors, {anchors_[i].x, anchors_[i].y});
+        });
+        for (std::uint32_t i = 0; i < ball_total(); ++i)
+            if (!std::isfinite(length_squared(acceleration_[i])))
+                throw std::runtime_error("balls[" + std::to_string(i) +
+                                         "]: the attractors' pull on it is too large for a number");
+    }
+    predict_all();
+}
+
+template <Acceleration A>
+Ball EventLoopOf<A>::ball_at(std::uint32_t id, const Time& t) const {
+    const Motion<double> m = motion_of(id);
+    const double since = clock_.difference(t, anchors_[id].time);
+    const Vec2 x = position_at(m, since);
+    std::int32_t ignored = 0;
+    return {{grid_.x.wrapped(x.x(), ignored), grid_.y.wrapped(x.y(), ignored)},
+            velocity_at(m, since),
+            own_acceleration_[id],
+            radius_[id],
+            mass_[id],
+            restitution_[id],
+            is_static_[id] != 0};
+}
+
+template <Acceleration A>
+Vec2 EventLoopOf<A>::unwrapped_position_at(std::uint32_t id, const Time& t) const {
+    const Vec2 x = position_at(motion_of(id), clock_.difference(t, anchors_[id].time));
+    return {x.x() + double(periods_[id].x) * grid_.x.length(),
+            x.y() + double(periods_[id].y) * grid_.y.length()};
+}
+
+template <Acceleration A>
+void EventLoopOf<A>::audit(std::vector<Violation>& found) const {
+    for (std::uint32_t i = 0; i < ball_total(); ++i) {
+        if (is_static_[i]) continue;
+        const auto report_fault = [&found, i](const std::string& what) {
+            found.push_back({"balls[" + std::to_string(i) + "]: " + what});
+        };
+        const Anchor& a = anchors_[i];
+        if (!std::isfinite(a.x + a.y + a.vx + a.vy)) report_fault("state is not finite");
+        if (queue_.key(i) != key_of(i)) report_fault("the queue holds another time than its next event's");
+        if (queue_.key(i) < now_) report_fault("next event lies in the past");
+        bool listed = false;
+        cells_.for_each(grid_.index(a.cell), [&](std::uint32_t j) { listed = listed || j == i; });
+        if (listed == is_large(i) || a.storage != grid_.index(a.cell))
+            report_fault("is not listed in its cell");
+        const NextEvent best = const_cast<EventLoopOf*>(this)->template search<false>(i);
+        if (best.time < next_[i].time) report_fault("has an event before the one in the queue");
+    }
 }
 
 std::unique_ptr<EventLoop> make_event_loop(const Physics& physics, std::span<const Ball> balls,
