@@ -72,7 +72,7 @@ void EventLoopOf<A>::start_next_epoch(std::int64_t epoch) {
 
 template <Acceleration A>
 void EventLoopOf<A>::cross(std::uint32_t i) {
-    Anchor& a = anchors_[i];
+    const Anchor& a = anchors_[i];
     const Crossing crossing = crossings_[i];
     relist(i, {a.cell.x + crossing.dx, a.cell.y + crossing.dy});
     if (std::max(std::abs(a.cell.x), std::abs(a.cell.y)) >= GridAxis::kFarthest)
@@ -189,13 +189,10 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     const Vec2 r = centres_offset(i, j, image);
     const double restitution = restitution_at(
         pair_restitution(physics_.restitution_rule, restitution_[i], restitution_[j]), i, j, t);
-    double separation = 0;
-    if constexpr (A == Acceleration::kPerBall) {
-        // f'' / 2 of the squared distance f: negative where the pair is pressed together.
-        const double pressure =
-            -(length_squared<double>(va - vb) + dot<double>(r, acceleration_[i] - acceleration_[j]));
-        if (pressure > 0) separation = pressure / std::sqrt(length_squared(r)) * physics_.rest_time / 2;
-    }
+    double pressure = 0;  // -f'' / 2 of the squared distance f: positive where the pair is pressed together
+    if constexpr (A == Acceleration::kPerBall)
+        pressure = -(length_squared<double>(va - vb) + dot<double>(r, acceleration_[i] - acceleration_[j]));
+    const double separation = parting_speed(pressure, r);
     double impulse = 0;  // along the unit normal
     const PairVelocities<double> after =
         collide(va, vb, r, mass_[i], mass_[j], restitution, separation, &impulse);
@@ -242,14 +239,13 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     const double lasting = restitution_at(restitution, i, i, event.time);
     const Vec2 before = {a.vx, a.vy};
     const double length = std::sqrt(length_squared(normal));
-    double separation = 0;
+    double pressure = 0;
     if constexpr (A != Acceleration::kNone) {
         const bool is_round = is_ball || (event.partner < first_side() &&
                                           static_cast<WallFeature>(event.stamp) != WallFeature::kFace);
-        const double pressure =
-            -(dot(normal, acceleration_of(i)) + (is_round ? length_squared(before) : 0.0));
-        if (pressure > 0) separation = pressure / length * physics_.rest_time / 2;
+        pressure = -(dot(normal, acceleration_of(i)) + (is_round ? length_squared(before) : 0.0));
     }
+    const double separation = parting_speed(pressure, normal);
     const double factor = physics_.contact_time > 0 && lasting != restitution ? 1 : physics_.speed_factor;
     Vec2 after = bounce<double>(before, normal, lasting, separation / factor);
     if (factor != 1) after *= factor;

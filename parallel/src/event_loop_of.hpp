@@ -131,6 +131,11 @@ class EventLoopOf final : public EventLoop {
         return std::min(clock_.since_epoch(next_[i].time, epoch_), crossings_[i].time);
     }
     [[nodiscard]] Time time_now() const { return clock_.after({epoch_, 0}, now_); }
+    /// The speed at which a contact pressed together must part to stay open for the rest time; `line` is its
+    /// centre line or normal.
+    [[nodiscard]] double parting_speed(double pressure, const Vec2& line) const {
+        return pressure > 0 ? pressure / std::sqrt(length_squared(line)) * physics_.rest_time / 2 : 0.0;
+    }
     [[nodiscard]] double restitution_at(double restitution, std::uint32_t i, std::uint32_t j,
                                         const Time& t) const;
     void report(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t j, const Vec2& normal,

@@ -17,8 +17,7 @@ class CellLists {
     explicit CellLists(std::size_t cells) : blocks_(cells) {}
 
     void insert(std::int32_t cell, std::uint32_t id) {
-        Block& first = blocks_[cell];
-        if (first.count == kBlockSize) {
+        if (blocks_[cell].count == kBlockSize) {
             const std::int32_t full = take_block();
             blocks_[full] = blocks_[cell];
             blocks_[cell] = Block{0, full, {}};
