@@ -54,8 +54,6 @@ EventLoop::EventLoop(const Physics& physics, std::span<const Ball> balls, std::s
     if (physics.contact_time > 0) last_collision_.assign(n, {std::numeric_limits<std::int64_t>::min(), 0});
 }
 
-// ----------------------------------------------------------------------------------------------------
-
 template <Acceleration A>
 EventLoopOf<A>::EventLoopOf(const Physics& physics, std::span<const Ball> balls, std::span<const Wall> walls,
                             std::span<const Attractor> attractors, const Grid& grid, const Executor& executor)

@@ -12,8 +12,6 @@
 
 namespace carom {
 
-// --------------------------------------------------------------------------------------------------------------------
-
 template <Acceleration A>
 void EventLoopOf<A>::advance_to(const Time& end) {
     while (epoch_ < end.epoch) {

@@ -12,8 +12,6 @@
 
 namespace carom {
 
-// ----------------------------------------------------------------------------------------------------------------
-
 template <Acceleration A>
 Time EventLoopOf<A>::predict_pair(std::uint32_t i, std::uint32_t j, Image image) const {
     if (j < i) {  // one order for a pair, whoever asks
@@ -89,8 +87,6 @@ bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint3
 }
 
 // ---- Search
-// --------------------------------------------------------------------------------------------------------------------
-
 /// Predicts ball i against ball j, keeps the better event for i and, where asked, tells j.
 template <Acceleration A>
 template <bool kTellNeighbours>
