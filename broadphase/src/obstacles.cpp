@@ -73,13 +73,6 @@ void for_each_cell(const Grid& grid, Range rows, double reach, InBand&& in_band,
 
 }  // namespace
 
-double distance_to_segment(const Vec2& p, const Vec2& from, const Vec2& to) {
-    const Vec2 d = to - from;
-    const Vec2 r = p - from;
-    const double along = std::clamp(dot(r, d) / length_squared(d), 0.0, 1.0);
-    return std::sqrt(length_squared<double>(r - along * d));
-}
-
 ObstacleMap::ObstacleMap(const Grid& grid, std::span<const Ball> balls, std::span<const Wall> walls,
                          double largest_radius) {
     struct Placed {

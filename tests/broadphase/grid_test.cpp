@@ -180,6 +180,13 @@ TEST(CellLists, AgreeWithSets) {
     }
 }
 
+double distance_to_segment(const Vec2& p, const Vec2& from, const Vec2& to) {
+    const Vec2 d = to - from;
+    const Vec2 r = p - from;
+    const double along = std::clamp(dot(r, d) / length_squared(d), 0.0, 1.0);
+    return std::sqrt(length_squared<double>(r - along * d));
+}
+
 /// Whether a ball with its centre at p touches the obstacle moved by the shift.
 bool touches(const Vec2& p, double radius, const Scene& s, std::uint32_t id, const Vec2& shift) {
     if (id < s.balls.size()) return (p - s.balls[id].position - shift).norm() <= radius + s.balls[id].radius;

@@ -30,14 +30,10 @@ class ObstacleMap {
         if (first_.empty()) return {};
         return std::span(entries_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
     }
-    [[nodiscard]] bool empty() const { return entries_.empty(); }
 
  private:
     std::vector<std::uint32_t> first_;  // of each cell; empty when there is nothing at all
     std::vector<ObstacleEntry> entries_;
 };
-
-/// Distance from point p to the segment.
-[[nodiscard]] double distance_to_segment(const Vec2& p, const Vec2& from, const Vec2& to);
 
 }  // namespace carom
