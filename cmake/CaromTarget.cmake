@@ -6,6 +6,8 @@ function(carom_configure target)
     # Determinism: a contracted a*b+c rounds once where another compiler rounds twice.
     target_compile_options(${target} PUBLIC $<BUILD_INTERFACE:-ffp-contract=off>
                                             $<INSTALL_INTERFACE:-ffp-contract=off>)
+    # Nobody asks for errno or for floating-point traps; without them square roots and choices fit vectors. No bit changes.
+    target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                                              $<$<BOOL:${CAROM_WERROR}>:-Werror>)
     if(CAROM_ARCH)

@@ -7,7 +7,8 @@
 // id to the larger.
 // - A ball's entry in the queue is never later than its true next event. It may be stale, when the partner
 // has had another event
-//   since; that is noticed when the entry comes up, and the ball is predicted anew.
+//   since; that is noticed when the entry comes up, and the ball is predicted anew. Of two balls that meet
+//   next at least one has the event, or an earlier one, as its entry.
 // - Events come in the order of (time, smaller id, larger id), walls numbered after the balls and the
 // domain's sides after the walls.
 #pragma once
@@ -105,6 +106,7 @@ class EventLoop {
     std::vector<Anchor> anchors_;
     std::vector<NextEvent> next_;
     std::vector<Crossing> crossings_;
+    std::vector<std::uint8_t> asleep_;  // whose next event is its partner's as well, and in the queue there
     std::vector<double> radius_;
     std::vector<double> mass_;
     std::vector<double> restitution_;
@@ -115,8 +117,17 @@ class EventLoop {
     std::vector<Periods> periods_;      // how many periods the frame of the anchor is from that of time 0
     std::vector<Wall> walls_;
 
+    void choose_margins();
+    static constexpr double kDoubtfulShare = 0x1p-20;
+    bool one_radius_ = false;  // of all moving balls
+    bool filters_ = false;     // whether bound_times() is of use, with these margins:
+    double margin_ = 0;        // relative, of squared lengths
+    double farthest_ = 0;      // beyond such coordinates and flights the margin does not hold
+    double time_margin_ = 0;   // of times since the start of the epoch
+
     std::int64_t epoch_ = 0;
-    double now_ = 0;  // since the start of the epoch
+    double now_ = 0;             // since the start of the epoch
+    bool simultaneous_ = false;  // several events share the present instant
     std::uint64_t events_at_once_ = 0;
     Counts counts_;
     double virial_ = 0;

@@ -27,20 +27,38 @@ void EventLoopOf<A>::advance_to(const Time& end) {
 
 template <Acceleration A>
 void EventLoopOf<A>::run_until(double end, bool inclusive) {
-    while (queue_.first_key() < end || (inclusive && queue_.first_key() == end)) {
-        const std::uint32_t i = queue_.first();
-        if (queue_.first_key() > now_) {
-            now_ = queue_.first_key();
+    for (;;) {
+        std::uint32_t i = queue_.first();
+        const double key = queue_.key(i);
+        if (!(key < end || (inclusive && key == end))) return;
+        if (key > now_) {
+            now_ = key;
             events_at_once_ = 0;
+            simultaneous_ = false;
         } else if (++events_at_once_ > most_events_at_once()) {
             refuse_wedged(i);
         }
+        if (!simultaneous_ && queue_.may_be_tied()) {
+            order_ties();
+            i = queue_.first();
+        }
         ++counts_.events;
-        if (crossings_[i].time <= clock_.since_epoch(next_[i].time, epoch_))
+        if (asleep_[i] || crossings_[i].time <= clock_.since_epoch(next_[i].time, epoch_))
             cross(i);
         else
             collide_first(i);
     }
+}
+
+/// Several events share this instant: lets the smaller id of each pair know of its event, so that the
+/// smallest id with an event now holds the first one.
+template <Acceleration A>
+void EventLoopOf<A>::order_ties() {
+    std::vector<std::uint32_t> tied;
+    queue_.for_each_first([&](std::uint32_t i) { tied.push_back(i); });
+    if (tied.size() < 2) return;
+    simultaneous_ = true;
+    for (const std::uint32_t i : tied) tell_lower(i);
 }
 
 /// Many balls may meet at one instant, in a row of touching balls (N / 2)^2 times; what goes on has no end.
@@ -81,19 +99,18 @@ void EventLoopOf<A>::cross(std::uint32_t i) {
     const std::int32_t reach_x = cell_reach(grid_.x, i);
     const std::int32_t reach_y = cell_reach(grid_.y, i);
     if (reaches_all(reach_x, reach_y)) {
-        scan_listed<true>(i, best);
+        scan_listed(i, best);
     } else if (crossing.dx != 0) {
-        for (std::int32_t k = -reach_y; k <= reach_y; ++k)
-            scan_cell<true>(i, {a.cell.x + crossing.dx * reach_x, a.cell.y + k}, best);
+        const std::int32_t x = a.cell.x + crossing.dx * reach_x;
+        scan_cells(i, {x, a.cell.y - reach_y}, {x, a.cell.y + reach_y}, best);
     } else {
-        for (std::int32_t k = -reach_x; k <= reach_x; ++k)
-            scan_cell<true>(i, {a.cell.x + k, a.cell.y + crossing.dy * reach_y}, best);
+        const std::int32_t y = a.cell.y + crossing.dy * reach_y;
+        scan_cells(i, {a.cell.x - reach_x, y}, {a.cell.x + reach_x, y}, best);
     }
-    scan_large<true>(i, best);
+    scan_large(i, best);
     scan_obstacles(i, best);
-    next_[i] = best;
     predict_crossing(i);
-    schedule(i);
+    expect(i, best);
 }
 
 template <Acceleration A>
@@ -107,8 +124,7 @@ void EventLoopOf<A>::collide_first(std::uint32_t i) {
         collide_pair(i, event.partner, {event.image_x, event.image_y}, event.time);
         return;
     }
-    next_[i] = search<true>(i);  // the partner has gone another way
-    schedule(i);
+    expect(i, search(i));  // the partner has gone another way
 }
 
 /// Anchors a ball at `t`, wrapped into the box. Gives the periods that the wrapping took away.
@@ -207,8 +223,7 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     settle(j);
     for (const std::uint32_t k : {i, j}) {
         predict_crossing(k);
-        next_[k] = search<true>(k);
-        schedule(k);
+        expect(k, search(k));
     }
 }
 
@@ -258,8 +273,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     if (physics_.contact_time > 0) last_collision_[i] = event.time;
     settle(i);
     predict_crossing(i);
-    next_[i] = search<true>(i);
-    schedule(i);
+    expect(i, search(i));
 }
 
 template <Acceleration A>

@@ -2,6 +2,7 @@
 // ball meets next, event_loop_events.hpp what happens then; event_loop.cpp sets up, reads and instantiates.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -95,26 +96,42 @@ class EventLoopOf final : public EventLoop {
         const auto floor_divided = [&axis](std::int32_t k) { return (k - axis.fold(k)) / axis.count(); };
         return {-floor_divided(reach - offset), floor_divided(offset + reach)};
     }
-    template <bool kTellNeighbours>
-    void consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best);
-    template <bool kTellNeighbours>
-    void scan_large(std::uint32_t i, NextEvent& best);
-    template <bool kTellNeighbours>
-    void scan_listed(std::uint32_t i, NextEvent& best);
-    template <bool kTellNeighbours>
-    void consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best);
-    void relist(std::uint32_t i, CellCoordinates cell);
-    template <bool kTellNeighbours>
-    void scan_cell(std::uint32_t i, CellCoordinates cell, NextEvent& best);
+    void consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) const;
+    void consider_listed(std::uint32_t i, std::uint32_t j, CellCoordinates cell, NextEvent& best) const;
+    void consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best) const;
+    void scan_large(std::uint32_t i, NextEvent& best) const;
+    void scan_listed(std::uint32_t i, NextEvent& best) const;
+    void scan_cells(std::uint32_t i, CellCoordinates first, CellCoordinates last, NextEvent& best) const;
+    static constexpr std::size_t kMostCandidates = 64;  // that are looked at together
+    struct Candidates {
+        std::size_t count = 0;
+        std::size_t cell_count = 0;
+        alignas(64) std::array<double, kMostCandidates> earliest;
+        std::array<std::uint32_t, kMostCandidates + 8> ids;
+        std::array<std::uint8_t, kMostCandidates + 8> from;  // which of the cells
+        std::array<CellCoordinates, 9> cells;
+    };
+    struct Present {
+        double x, y, vx, vy;
+        double flight;  ///< how far it went since its anchor by its velocity then, along both axes together
+        double rounded_speed_squared;  ///< of the speeds that were rounded on the way here
+    };
+    [[nodiscard]] Present present(std::uint32_t i) const;
+    void bound_times(std::uint32_t i, const Present& a, Candidates& found) const;
+    void consider_all(std::uint32_t i, const Present& place, Candidates& found, NextEvent& best) const;
     void scan_obstacles(std::uint32_t i, NextEvent& best) const;
-    template <bool kTellNeighbours>
-    [[nodiscard]] NextEvent search(std::uint32_t i);
+    [[nodiscard]] NextEvent search(std::uint32_t i) const;
+    void expect(std::uint32_t i, const NextEvent& event);
+    void wake_partner(std::uint32_t i);
+    void tell_lower(std::uint32_t i);
+    void relist(std::uint32_t i, CellCoordinates cell);
     void predict_crossing(std::uint32_t i);
     void predict_all();
 
     // Events.
     void run_until(double end, bool inclusive);
     void start_next_epoch(std::int64_t epoch);
+    void order_ties();
     [[nodiscard]] std::uint64_t most_events_at_once() const {
         return 2'000'000 + 64 * std::uint64_t{ball_total()};
     }
@@ -128,7 +145,8 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] Vec2 centres_offset(std::uint32_t i, std::uint32_t j, Image image) const;
     void schedule(std::uint32_t i) { queue_.set(i, key_of(i)); }
     [[nodiscard]] double key_of(std::uint32_t i) const {
-        return std::min(clock_.since_epoch(next_[i].time, epoch_), crossings_[i].time);
+        return asleep_[i] ? crossings_[i].time
+                          : std::min(clock_.since_epoch(next_[i].time, epoch_), crossings_[i].time);
     }
     [[nodiscard]] Time time_now() const { return clock_.after({epoch_, 0}, now_); }
     /// The speed at which a contact pressed together must part to stay open for the rest time; `line` is its

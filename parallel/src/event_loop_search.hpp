@@ -87,42 +87,205 @@ bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint3
 }
 
 // ---- Search
-/// Predicts ball i against ball j, keeps the better event for i and, where asked, tells j.
+/// Predicts ball i against ball j and keeps the better event.
 template <Acceleration A>
-template <bool kTellNeighbours>
-void EventLoopOf<A>::consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) {
+void EventLoopOf<A>::consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) const {
     const NextEvent event{predict_pair(i, j, image), j, anchors_[j].stamp, image.x, image.y};
     if (precedes(event, best, i)) best = event;
-    if constexpr (kTellNeighbours) {
-        const NextEvent theirs{event.time, i, anchors_[i].stamp, -image.x, -image.y};
-        if (precedes(theirs, next_[j], j)) {
-            next_[j] = theirs;
-            schedule(j);
+}
+
+/// The same for a ball j from the list of the storage cell of `cell`.
+template <Acceleration A>
+void EventLoopOf<A>::consider_listed(std::uint32_t i, std::uint32_t j, CellCoordinates cell,
+                                     NextEvent& best) const {
+    const Anchor& b = anchors_[j];
+    Image image;
+    if (b.cell != cell) {  // the same storage cell, some turns of the fold away
+        const std::int32_t dx = cell.x - b.cell.x;
+        const std::int32_t dy = cell.y - b.cell.y;
+        if ((dx != 0 && !grid_.x.periodic()) || (dy != 0 && !grid_.y.periodic())) return;
+        image = {dx / grid_.x.count(), dy / grid_.y.count()};
+    }
+    consider(i, j, image, best);
+}
+
+/// Where ball i is now and how fast, in the frame of its anchor.
+template <Acceleration A>
+auto EventLoopOf<A>::present(std::uint32_t i) const -> Present {
+    const Anchor& a = anchors_[i];
+    const double since =
+        (now_ - a.time.offset) + clock_.epoch_length() * static_cast<double>(epoch_ - a.time.epoch);
+    Present p{a.x + since * a.vx,
+              a.y + since * a.vy,
+              a.vx,
+              a.vy,
+              std::abs(since * a.vx) + std::abs(since * a.vy),
+              0};
+    if constexpr (A == Acceleration::kUniform) {
+        const Vec2 fall = since * physics_.gravity;
+        p.x += since / 2 * fall.x();
+        p.y += since / 2 * fall.y();
+        p.vx += fall.x();
+        p.vy += fall.y();
+        p.rounded_speed_squared = a.vx * a.vx + a.vy * a.vy + p.vx * p.vx + p.vy * p.vy;
+    }
+    return p;
+}
+
+/// For each candidate a time, counted from now, before which it certainly does not meet ball i; infinity
+/// where it never does. All are taken to be in their nearest image; plain arithmetic on vectors without
+/// branches. Its margins cover the rounding here and in the exact prediction, see choose_margins().
+template <Acceleration A>
+void EventLoopOf<A>::bound_times(std::uint32_t i, const Present& a, Candidates& found) const {
+    constexpr std::size_t kLanes = 8;
+    const std::size_t padded = (found.count + kLanes - 1) / kLanes * kLanes;
+    for (std::size_t k = 0; k < kLanes; ++k) found.ids[found.count + k] = i;
+    const double now = now_;
+    const std::int64_t epoch = epoch_;
+    const double epoch_length = clock_.epoch_length();
+    const double radius = radius_[i];
+    const double period_x = grid_.x.periodic() ? grid_.x.length() : 0;
+    const double period_y = grid_.y.periodic() ? grid_.y.length() : 0;
+    const double turns_x = grid_.x.periodic() ? 1 / grid_.x.length() : 0;
+    const double turns_y = grid_.y.periodic() ? 1 / grid_.y.length() : 0;
+    const double gx = A == Acceleration::kUniform ? physics_.gravity.x() : 0;
+    const double gy = A == Acceleration::kUniform ? physics_.gravity.y() : 0;
+    const double margin = margin_;
+    const double farthest = farthest_;
+    constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
+    constexpr double kNeverTime = std::numeric_limits<double>::infinity();
+    alignas(64) double bx[kLanes], by[kLanes], bvx[kLanes], bvy[kLanes], since[kLanes], sum[kLanes];
+    std::fill_n(sum, kLanes, 2 * radius);
+    for (std::size_t first = 0; first < padded; first += kLanes) {
+        const std::uint32_t* ids = &found.ids[first];
+        for (std::size_t k = 0; k < kLanes; ++k) {
+            const Anchor& b = anchors_[ids[k]];
+            bx[k] = b.x;
+            by[k] = b.y;
+            bvx[k] = b.vx;
+            bvy[k] = b.vy;
+            since[k] = (now - b.time.offset) + epoch_length * static_cast<double>(epoch - b.time.epoch);
         }
+        if (!one_radius_)
+            for (std::size_t k = 0; k < kLanes; ++k) sum[k] = radius + radius_[ids[k]];
+        double* earliest = &found.earliest[first];
+        for (std::size_t k = 0; k < kLanes; ++k) {
+            const double way_x = since[k] * bvx[k];
+            const double way_y = since[k] * bvy[k];
+            double x = a.x - bx[k] - way_x;
+            double y = a.y - by[k] - way_y;
+            double vx = a.vx - bvx[k];
+            double vy = a.vy - bvy[k];
+            double rounded_speed_squared = 0;
+            if constexpr (A == Acceleration::kUniform) {
+                const double fall_x = since[k] * gx;
+                const double fall_y = since[k] * gy;
+                x -= since[k] / 2 * fall_x;
+                y -= since[k] / 2 * fall_y;
+                vx -= fall_x;
+                vy -= fall_y;
+                rounded_speed_squared = a.rounded_speed_squared + bvx[k] * bvx[k] + bvy[k] * bvy[k] +
+                                        (a.vx - vx) * (a.vx - vx) + (a.vy - vy) * (a.vy - vy);
+            }
+            const double flight = std::abs(way_x) + std::abs(way_y) + std::abs(x) + std::abs(y);
+            x -= period_x * ((x * turns_x + kRound) - kRound);
+            y -= period_y * ((y * turns_y + kRound) - kRound);
+            const double distance_squared = x * x + y * y;
+            const double speed_squared = vx * vx + vy * vy;
+            const double sum_squared = sum[k] * sum[k];
+            const double scale = distance_squared + sum_squared;
+            const double approach = -(x * vx + y * vy);
+            const double moment = x * vy - y * vx;
+            const double gap = distance_squared - sum_squared - margin * scale;
+            const double doubt = margin * (speed_squared + kDoubtfulShare * rounded_speed_squared) * scale;
+            const double discriminant = sum_squared * speed_squared - moment * moment + 4 * doubt;
+            const double root = std::sqrt(discriminant > 0 ? discriminant : 0.0);
+            const double t = gap / (root + approach) * (1 - margin);
+            const double sooner = (gap > 0) & (approach > 0) ? t : 0.0;
+            const bool meets =
+                (discriminant >= 0) & ((approach > 0) | (approach * approach <= margin * doubt));
+            const double bound = flight > farthest ? 0.0 : (meets ? sooner : kNeverTime);
+            earliest[k] = ids[k] == i ? kNeverTime : bound;
+        }
+    }
+    for (std::size_t k = found.count; k < padded; ++k) found.earliest[k] = kNeverTime;
+}
+
+/// Ball i against the candidates: exactly where the bounds leave it open who is first.
+template <Acceleration A>
+void EventLoopOf<A>::consider_all(std::uint32_t i, const Present& place, Candidates& found,
+                                  NextEvent& best) const {
+    if (found.count == 0) return;
+    bound_times(i, place, found);
+    const auto latest = [&] {
+        return best.time == kNever ? std::numeric_limits<double>::max()
+                                   : clock_.since_epoch(best.time, epoch_) - now_ + time_margin_;
+    };
+    const auto place_bits = [&](double limit) {
+        std::uint64_t bits = 0;
+        for (std::size_t k = 0; k < found.count; ++k)
+            bits |= std::uint64_t{found.earliest[k] <= limit ? 1U : 0U} << k;
+        return bits;
+    };
+    const auto consider_at = [&](std::size_t k) {
+        consider_listed(i, found.ids[k], found.cells[found.from[k]], best);
+    };
+    std::size_t soonest = 0;
+    for (std::size_t k = 1; k < found.count; ++k)
+        soonest = found.earliest[k] < found.earliest[soonest] ? k : soonest;
+    if (!(found.earliest[soonest] <= latest())) return;
+    consider_at(soonest);
+    std::uint64_t open = place_bits(latest()) & ~(std::uint64_t{1} << soonest);
+    for (; open != 0; open &= open - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(open));
+        if (found.earliest[k] <= latest()) consider_at(k);
     }
 }
 
+/// Ball i against all that are listed in a block of cells.
 template <Acceleration A>
-template <bool kTellNeighbours>
-void EventLoopOf<A>::scan_cell(std::uint32_t i, CellCoordinates cell, NextEvent& best) {
-    cells_.for_each(grid_.index(cell), [&](std::uint32_t j) {
-        if (j == i) return;
-        const Anchor& b = anchors_[j];
-        Image image;
-        if (b.cell != cell) {  // the same storage cell, some turns of the fold away
-            const std::int32_t dx = cell.x - b.cell.x;
-            const std::int32_t dy = cell.y - b.cell.y;
-            if ((dx != 0 && !grid_.x.periodic()) || (dy != 0 && !grid_.y.periodic())) return;
-            image = {dx / grid_.x.count(), dy / grid_.y.count()};
+void EventLoopOf<A>::scan_cells(std::uint32_t i, CellCoordinates first, CellCoordinates last,
+                                NextEvent& best) const {
+    const Present place = present(i);
+    const bool filters = A != Acceleration::kPerBall && filters_ &&
+                         std::abs(place.x) + std::abs(place.y) + place.flight <= farthest_;
+    Candidates found;
+    for (std::int32_t y = first.y; y <= last.y; ++y) {
+        for (std::int32_t x = first.x; x <= last.x; ++x) {
+            const CellCoordinates cell{x, y};
+            const std::int32_t storage = grid_.index(cell);
+            if (!filters) {
+                cells_.for_each(storage, [&](std::uint32_t j) {
+                    if (j != i) consider_listed(i, j, cell, best);
+                });
+                continue;
+            }
+            if (found.cell_count == found.cells.size()) {
+                consider_all(i, place, found, best);
+                found.count = found.cell_count = 0;
+            }
+            found.cells[found.cell_count] = cell;
+            cells_.for_each_block(
+                storage, [&](std::span<const std::uint32_t, CellLists::kOverrun> block, std::size_t used) {
+                    if (found.count + used > kMostCandidates) {
+                        consider_all(i, place, found, best);
+                        found.count = 0;
+                    }
+                    for (std::size_t k = 0; k < CellLists::kOverrun; ++k) {
+                        found.ids[found.count + k] = block[k];
+                        found.from[found.count + k] = static_cast<std::uint8_t>(found.cell_count);
+                    }
+                    found.count += used;
+                });
+            ++found.cell_count;
         }
-        consider<kTellNeighbours>(i, j, image, best);
-    });
+    }
+    consider_all(i, place, found, best);
 }
 
 /// Ball j in all its images that lie so near that a contact could come before either centre crosses a border.
 template <Acceleration A>
-template <bool kTellNeighbours>
-void EventLoopOf<A>::consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best) {
+void EventLoopOf<A>::consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best) const {
     if (j == i) return;
     const double sum = radius_[i] + radius_[j];
     const CellCoordinates& a = anchors_[i].cell;
@@ -130,22 +293,20 @@ void EventLoopOf<A>::consider_images(std::uint32_t i, std::uint32_t j, NextEvent
     const auto [first_x, last_x] = images_within(grid_.x, a.x - b.x, reach(grid_.x, sum));
     const auto [first_y, last_y] = images_within(grid_.y, a.y - b.y, reach(grid_.y, sum));
     for (std::int32_t x = first_x; x <= last_x; ++x)
-        for (std::int32_t y = first_y; y <= last_y; ++y) consider<kTellNeighbours>(i, j, {x, y}, best);
+        for (std::int32_t y = first_y; y <= last_y; ++y) consider(i, j, {x, y}, best);
 }
 
 /// The large balls, which are in no cell's list.
 template <Acceleration A>
-template <bool kTellNeighbours>
-void EventLoopOf<A>::scan_large(std::uint32_t i, NextEvent& best) {
-    for (const std::uint32_t j : large_) consider_images<kTellNeighbours>(i, j, best);
+void EventLoopOf<A>::scan_large(std::uint32_t i, NextEvent& best) const {
+    for (const std::uint32_t j : large_) consider_images(i, j, best);
 }
 
 /// All other balls, for a ball so large that the cells within its reach are more than there are.
 template <Acceleration A>
-template <bool kTellNeighbours>
-void EventLoopOf<A>::scan_listed(std::uint32_t i, NextEvent& best) {
+void EventLoopOf<A>::scan_listed(std::uint32_t i, NextEvent& best) const {
     for (std::uint32_t j = 0; j < ball_total(); ++j)
-        if (!is_static_[j] && !is_large(j)) consider_images<kTellNeighbours>(i, j, best);
+        if (!is_static_[j] && !is_large(j)) consider_images(i, j, best);
 }
 
 template <Acceleration A>
@@ -176,22 +337,61 @@ void EventLoopOf<A>::scan_obstacles(std::uint32_t i, NextEvent& best) const {
 
 /// Ball i's next event from all that is around it.
 template <Acceleration A>
-template <bool kTellNeighbours>
-NextEvent EventLoopOf<A>::search(std::uint32_t i) {
+NextEvent EventLoopOf<A>::search(std::uint32_t i) const {
     NextEvent best;
     const CellCoordinates c = anchors_[i].cell;
     const std::int32_t reach_x = cell_reach(grid_.x, i);
     const std::int32_t reach_y = cell_reach(grid_.y, i);
-    if (reaches_all(reach_x, reach_y)) {
-        scan_listed<kTellNeighbours>(i, best);
-    } else {
-        for (std::int32_t y = c.y - reach_y; y <= c.y + reach_y; ++y)
-            for (std::int32_t x = c.x - reach_x; x <= c.x + reach_x; ++x)
-                scan_cell<kTellNeighbours>(i, {x, y}, best);
-    }
-    scan_large<kTellNeighbours>(i, best);
+    if (reaches_all(reach_x, reach_y))
+        scan_listed(i, best);
+    else
+        scan_cells(i, {c.x - reach_x, c.y - reach_y}, {c.x + reach_x, c.y + reach_y}, best);
+    scan_large(i, best);
     scan_obstacles(i, best);
     return best;
+}
+
+/// Enters ball i's next event. Its partner is not told: of two balls that meet next, the one that was
+/// predicted last knows. Where both do, this one sleeps until the other wakes it.
+template <Acceleration A>
+void EventLoopOf<A>::expect(std::uint32_t i, const NextEvent& event) {
+    wake_partner(i);
+    next_[i] = event;
+    asleep_[i] = 0;
+    if (event.partner < ball_total() && !is_static_[event.partner]) {
+        const NextEvent& theirs = next_[event.partner];
+        asleep_[i] = theirs.partner == i && theirs.time == event.time && !asleep_[event.partner] &&
+                     theirs.stamp == anchors_[i].stamp && theirs.image_x == -event.image_x &&
+                     theirs.image_y == -event.image_y;
+    }
+    schedule(i);
+    if (simultaneous_) tell_lower(i);
+}
+
+/// Ball i's event is about to be dropped: a partner that relies on it looks after itself again.
+template <Acceleration A>
+void EventLoopOf<A>::wake_partner(std::uint32_t i) {
+    const std::uint32_t j = next_[i].partner;
+    if (j >= ball_total() || !asleep_[j] || next_[j].partner != i) return;
+    asleep_[j] = 0;
+    schedule(j);
+}
+
+/// Where many events share one instant their order counts: then a pair's event is known to its smaller id.
+template <Acceleration A>
+void EventLoopOf<A>::tell_lower(std::uint32_t i) {
+    const NextEvent event = next_[i];
+    const std::uint32_t j = event.partner;
+    if (j >= i || is_static_[j] || anchors_[j].stamp != event.stamp) return;
+    const NextEvent theirs{event.time, i, anchors_[i].stamp, -event.image_x, -event.image_y};
+    if (precedes(theirs, next_[j], j)) {
+        wake_partner(j);
+        next_[j] = theirs;
+    } else if (!asleep_[j] || next_[j].partner != i) {
+        return;
+    }
+    asleep_[j] = 0;
+    schedule(j);
 }
 
 template <Acceleration A>
@@ -218,7 +418,8 @@ void EventLoopOf<A>::predict_all() {
     executor_.for_ranges(anchors_.size(), 512, [this](std::size_t first, std::size_t last) {
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
             if (is_static_[i]) continue;
-            next_[i] = search<false>(i);
+            next_[i] = search(i);
+            asleep_[i] = 0;
             predict_crossing(i);
             queue_.put(i, key_of(i));
         }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace carom {
@@ -45,8 +46,16 @@ class CellLists {
             for (std::int32_t k = 0; k < blocks_[b].count; ++k) f(blocks_[b].ids[k]);
     }
 
+    /// Calls f(ids, count) for every block of a cell: the first `count` of the ids are in it.
+    static constexpr std::size_t kOverrun = 6;
+    template <class F>
+    void for_each_block(std::int32_t cell, F&& f) const {
+        for (std::int32_t b = cell; b >= 0; b = blocks_[b].next)
+            f(std::span(blocks_[b].ids), static_cast<std::size_t>(blocks_[b].count));
+    }
+
  private:
-    static constexpr std::int32_t kBlockSize = 6;
+    static constexpr std::int32_t kBlockSize = kOverrun;
     struct Block {  // half a cache line
         std::int32_t count = 0;
         std::int32_t next = -1;
