@@ -103,6 +103,8 @@ Summary summary_of(const World& world, const Scene& scene, const Balance& start,
     summary.energy_relative_change = relative_change(start.energy, end.energy);
     summary.momentum_initial = start.momentum;
     summary.momentum_final = end.momentum;
+    summary.windows = counts.windows;
+    summary.window_retries = counts.window_retries;
     summary.max_overlap = world.max_overlap();
     summary.compressibility_factor = world.compressibility_factor();
     summary.state_hash = world.state_hash();

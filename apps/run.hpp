@@ -19,6 +19,8 @@ struct RunOptions {
     int threads = 0;
     std::optional<double> step;
     double cell_size = 0;
+    int domains = 0;
+    int halo = 0;
     std::string trajectory;
     std::optional<double> every;  ///< given exactly when `trajectory` is
     std::string events;

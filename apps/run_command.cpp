@@ -44,7 +44,10 @@ int run(const RunOptions& options) {
     const double until = options.until.value_or(scene.until);
     RunOutputs outputs(options);
     watch_for_interrupts();
-    World world(scene, {.threads = options.threads, .cell_size = options.cell_size});
+    World world(scene, {.threads = options.threads,
+                        .cell_size = options.cell_size,
+                        .domains = options.domains,
+                        .halo = options.halo});
     const bool finished = run_world(world, scene, until, options, outputs);
     if (finished) return kGood;
     if (!options.quiet) {
@@ -99,6 +102,15 @@ void add_run_command(CLI::App& app, int& status) {
                      "Advance in steps of this length. Never changes a bit of the result")
         ->type_name("DT")
         ->check(positive_number());
+    command
+        ->add_option("--domains", options->domains,
+                     "parts that the plane is cut in, to be simulated side by side; speed only (default: "
+                     "chosen from the scene and the threads)")
+        ->check(CLI::Range(1, 1 << 20));
+    command
+        ->add_option("--halo", options->halo,
+                     "cells around a part that are simulated with it; speed only (default: chosen)")
+        ->check(CLI::Range(1, 1 << 20));
     command
         ->add_option("--cell-size", options->cell_size,
                      "Side of the grid's cells. Never changes a bit of the result")

@@ -4,13 +4,17 @@
 // What the rest of the engine relies on:
 // - A ball's anchor changes at its own events only; crossing a cell's border is not one.
 // - A predicted time is a function of the two anchors and the periodic image alone, computed from the smaller
-// id to the larger.
+//   id to the larger.
 // - A ball's entry in the queue is never later than its true next event. It may be stale, when the partner
-// has had another event
-//   since; that is noticed when the entry comes up, and the ball is predicted anew. Of two balls that meet
-//   next at least one has the event, or an earlier one, as its entry.
+//   has had another event since; that is noticed when the entry comes up, and the ball is predicted anew. Of
+//   two balls that meet next at least one has the event, or an earlier one, as its entry.
 // - Events come in the order of (time, smaller id, larger id), walls numbered after the balls and the
-// domain's sides after the walls.
+//   domain's sides after the walls.
+//
+// A loop holds the balls that its domain owns and, where there are other domains, copies of the foreign balls
+// around. Copies follow the same rules as far as their surroundings are known; windows.cpp decides afterwards
+// whether what they did was right. Balls are numbered in the order in which they were added; their ids decide
+// every order that shows.
 #pragma once
 
 #include <cstdint>
@@ -21,123 +25,143 @@
 #include <vector>
 
 #include <carom/broadphase/cell_lists.hpp>
-#include <carom/broadphase/grid.hpp>
-#include <carom/broadphase/obstacles.hpp>
 #include <carom/core/event_queue.hpp>
 #include <carom/parallel/world.hpp>
 
+#include "ball_record.hpp"
+#include "bodies.hpp"
 #include "executor.hpp"
-#include "physics.hpp"
+#include "region.hpp"
 
 namespace carom {
 
-/// A ball's state at its last event, and where the grid has it now. One cache line.
-struct alignas(64) Anchor {
-    double x, y, vx, vy;
+/// A collision as the loop notes it; `collision` is filled in only where somebody listens.
+struct CollisionNote {
     Time time;
-    std::uint32_t stamp = 0;   ///< counts the ball's events
-    std::int32_t storage = 0;  ///< the storage cell of `cell`
-    CellCoordinates cell;      ///< in the frame of the anchor's position: unfolded
+    std::uint32_t lower = 0;   ///< id of the ball, the smaller of two moving ones
+    std::uint32_t higher = 0;  ///< number of the other body
+    bool is_wall = false;
+    double virial = 0;
+    Collision collision;
 };
 
-static_assert(sizeof(Anchor) == 64);
-
-/// What a ball will meet next as far as is known.
-struct NextEvent {
-    Time time = kNever;
-    std::uint32_t partner = 0;  ///< a ball, or ball count + wall, or ball count + wall count + side
-    std::uint32_t stamp = 0;    ///< the partner's at prediction; for a wall the feature that is hit
-    std::int32_t image_x =
-        0;  ///< the partner is met this many periods from its own frame, seen from the ball's
-    std::int32_t image_y = 0;
+/// An anchor that an event has overwritten, and the index of the one before it.
+struct OverwrittenAnchor {
+    Anchor anchor;
+    Periods periods;
+    std::uint32_t previous = kNowhere;
 };
 
-/// How many periods a ball has passed since time 0.
-struct Periods {
-    std::int64_t x = 0;
-    std::int64_t y = 0;
-};
-
-/// When a ball leaves its cell, and to which side.
-struct Crossing {
-    double time = 0;  ///< since the start of the current epoch
-    std::int8_t dx = 0;
-    std::int8_t dy = 0;
+/// A ball that has come to another cell.
+struct Visit {
+    std::uint32_t ball = 0;
+    CellCoordinates cell;  ///< in the frame of the region
 };
 
 class EventLoop {
  public:
+    explicit EventLoop(const Bodies& bodies);
     virtual ~EventLoop() = default;
 
-    /// Resolves all events up to and including `end`.
-    virtual void advance_to(const Time& end) = 0;
-    /// Anchors every moving ball at `t`, no event being left before it, with a new acceleration: gravity, its
-    /// own and the field's.
-    virtual void update_field(const Time& t, std::span<const Attractor> attractors) = 0;
+    // ---- Filling: clear(), add() for every ball, then start() or predict_all().
+    /// Empties the loop for a region. `now` is the time up to which the balls have been advanced.
+    void clear(const Region& region, const Time& now);
+    /// Adds a ball whose cell lies in the region, `crossing_time` since the epoch of `now`. A copy is
+    /// simulated until `end`.
+    void add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end = kNever);
+    /// Takes the balls' next events as they are.
+    void start();
+    /// Predicts all of them anew.
+    virtual void predict_all(const Executor* executor) = 0;
+
+    // ---- Running.
+    /// Resolves all events before `end`, and at it where `inclusive`. Throws std::runtime_error when a ball
+    /// is wedged.
+    virtual void advance_to(const Time& end, bool inclusive) = 0;
+    /// Anchors every ball at `t`, no event being left before it, with a new acceleration: gravity, its own
+    /// and the field's. Call predict_all() next.
+    virtual void renew_field(const Time& t) = 0;
+
+    // ---- Reading.
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(anchors_.size()); }
+    [[nodiscard]] std::uint32_t id(std::uint32_t i) const { return ids_[i]; }
+    [[nodiscard]] BallRecord record(std::uint32_t i) const;
+    [[nodiscard]] BallExtra extra(std::uint32_t i) const;
+    /// Ball i's state at `t` >= its anchor.
+    [[nodiscard]] BallState state(std::uint32_t i, const Time& t) const;
+    /// A mark of all that ball i has done since clear().
+    [[nodiscard]] std::uint64_t history(std::uint32_t i) const { return histories_[i]; }
+    /// Whether a copy was given up before `end`.
+    [[nodiscard]] bool is_lost(std::uint32_t i, const Time& end) const {
+        return ends_[i] < bodies_.physics.clock.since_epoch(end, epoch_);
+    }
+    /// Whether a ball of its own went where the loop cannot follow.
+    [[nodiscard]] bool has_failed() const { return failed_; }
     /// The first broken rule of this file's head comment found for each ball.
     virtual void audit(std::vector<Violation>& found) const = 0;
 
-    /// A ball's state at `t` >= its anchor, in the frame of the box.
-    [[nodiscard]] virtual Ball ball_at(std::uint32_t id, const Time& t) const = 0;
-    /// The same position before it is wrapped back over all the periods that the ball has passed.
-    [[nodiscard]] virtual Vec2 unwrapped_position_at(std::uint32_t id, const Time& t) const = 0;
+    bool listens = false;       ///< whether notes carry the whole collision
+    bool keeps_notes = false;   ///< whether notes are kept rather than handed to `on_note`
+    bool keeps_window = false;  ///< whether overwritten anchors and visits are kept
+    std::function<void(const CollisionNote&)> on_note;
+    std::vector<CollisionNote> notes;             ///< of collisions that count here, in order
+    std::vector<OverwrittenAnchor> overwritten;   ///< of owned balls
+    std::vector<std::uint32_t> last_overwritten;  ///< one a ball: index into `overwritten`
+    std::vector<Visit> visits;                    ///< of owned balls
+    std::vector<Visit> visits_of_copies;
+    std::vector<std::uint8_t>
+        touched;  ///< one a mark of the region: whether a ball of its own was in the cell or beside
+    std::uint64_t events = 0;             ///< of owned balls: collisions, cell crossings, stale predictions
+    std::uint64_t collisions_of_all = 0;  ///< copies' included, for the price of the halo
 
-    [[nodiscard]] std::size_t ball_count() const { return anchors_.size(); }
-    [[nodiscard]] const Counts& counts() const { return counts_; }
-    [[nodiscard]] double virial() const { return virial_; }
-    [[nodiscard]] const Grid& grid() const { return grid_; }
-    std::function<void(const Collision&)> listener;
+    [[nodiscard]] bool is_owned(std::uint32_t i) const { return owned_[i] != 0; }
 
  protected:
-    EventLoop(const Physics& physics, std::span<const Ball> balls, std::span<const Wall> walls,
-              const Grid& grid, const Executor& executor);
+    void touch(const CellCoordinates& cell);
+    [[nodiscard]] double radius_of(std::uint32_t i) const {
+        return bodies_.radius.is_one() ? bodies_.largest_listed_radius : radius_[i];
+    }
+    /// The place of a cell given in ball i's frame; -1 outside the region.
+    [[nodiscard]] std::int32_t place_of(std::uint32_t i, const CellCoordinates& c) const {
+        return region_.place({c.x + frames_[i].x, c.y + frames_[i].y});
+    }
 
-    Physics physics_;
-    Clock clock_;
-    const Executor& executor_;
-    Grid grid_;
+    const Bodies& bodies_;
+    const Clock clock_;
+    Region region_;
     CellLists cells_;
-    ObstacleMap obstacles_;
-    ObstacleMap obstacles_of_large_;
-    std::vector<std::uint32_t> large_;  // moving balls wider than a cell, few
-    double largest_listed_radius_ = 0;  // of all other moving balls
     EventQueue queue_;
 
+    // One a ball, in the order of add().
+    std::vector<std::uint32_t> ids_;
     std::vector<Anchor> anchors_;
     std::vector<NextEvent> next_;
     std::vector<Crossing> crossings_;
     std::vector<std::uint8_t> asleep_;  // whose next event is its partner's as well, and in the queue there
-    std::vector<double> radius_;
-    std::vector<double> mass_;
-    std::vector<double> restitution_;
-    std::vector<std::uint8_t> is_static_;
-    std::vector<Vec2> own_acceleration_;
-    std::vector<Vec2> acceleration_;    // the present one; only where it differs from ball to ball
+    std::vector<std::uint8_t> owned_;
+    std::vector<CellCoordinates> frames_;  // from the anchor's frame to the region's
+    std::vector<double> ends_;             // when a copy is given up, since the start of the epoch
+    std::vector<double> radius_;           // only where they differ
+    std::vector<Periods> periods_;
+    std::vector<std::uint64_t> histories_;
+    std::vector<Vec2> acceleration_;    // only where it differs from ball to ball
     std::vector<Time> last_collision_;  // only where the contact time is not 0
-    std::vector<Periods> periods_;      // how many periods the frame of the anchor is from that of time 0
-    std::vector<Wall> walls_;
-
-    void choose_margins();
-    static constexpr double kDoubtfulShare = 0x1p-20;
-    bool one_radius_ = false;  // of all moving balls
-    bool filters_ = false;     // whether bound_times() is of use, with these margins:
-    double margin_ = 0;        // relative, of squared lengths
-    double farthest_ = 0;      // beyond such coordinates and flights the margin does not hold
-    double time_margin_ = 0;   // of times since the start of the epoch
+    std::vector<std::uint32_t> large_;
+    std::vector<std::uint32_t> tied_;
 
     std::int64_t epoch_ = 0;
     double now_ = 0;             // since the start of the epoch
     bool simultaneous_ = false;  // several events share the present instant
+    bool failed_ = false;
     std::uint64_t events_at_once_ = 0;
-    Counts counts_;
-    double virial_ = 0;
 };
 
-/// The loop whose kernel suits the scene: no acceleration, the same for all balls, or each its own.
-/// `executor` must outlive it.
-[[nodiscard]] std::unique_ptr<EventLoop> make_event_loop(const Physics& physics, std::span<const Ball> balls,
-                                                         std::span<const Wall> walls,
-                                                         std::span<const Attractor> attractors,
-                                                         const Grid& grid, const Executor& executor);
+/// The loop whose kernel suits the scene: no acceleration, the same for all balls, or each its own. `bodies`
+/// must outlive it.
+[[nodiscard]] std::unique_ptr<EventLoop> make_event_loop(const Bodies& bodies);
+
+/// The state at `t` >= its anchor of a ball with this acceleration of its own, if accelerations differ.
+[[nodiscard]] BallState state_at(const Bodies& bodies, const Anchor& anchor, const Periods& periods,
+                                 const Vec2& acceleration, const Time& t);
 
 }  // namespace carom

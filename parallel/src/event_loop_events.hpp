@@ -1,6 +1,7 @@
 // What happens at an event, and the loop that takes them in order.
 #pragma once
 
+#include <bit>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -13,7 +14,7 @@
 namespace carom {
 
 template <Acceleration A>
-void EventLoopOf<A>::advance_to(const Time& end) {
+void EventLoopOf<A>::advance_to(const Time& end, bool inclusive) {
     while (epoch_ < end.epoch) {
         run_until(clock_.epoch_length(), false);
         const double epochs = std::floor(queue_.first_key() / clock_.epoch_length());
@@ -21,14 +22,15 @@ void EventLoopOf<A>::advance_to(const Time& end) {
                              ? epoch_ + std::max(std::int64_t{1}, static_cast<std::int64_t>(epochs))
                              : end.epoch);
     }
-    run_until(end.offset, true);
+    run_until(end.offset, inclusive);
     now_ = std::max(now_, end.offset);
+    pass_on_notes();
 }
 
 template <Acceleration A>
 void EventLoopOf<A>::run_until(double end, bool inclusive) {
-    for (;;) {
-        std::uint32_t i = queue_.first();
+    while (!failed_) {
+        std::uint32_t i = queue_.first(ids_);
         const double key = queue_.key(i);
         if (!(key < end || (inclusive && key == end))) return;
         if (key > now_) {
@@ -38,11 +40,8 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
         } else if (++events_at_once_ > most_events_at_once()) {
             refuse_wedged(i);
         }
-        if (!simultaneous_ && queue_.may_be_tied()) {
-            order_ties();
-            i = queue_.first();
-        }
-        ++counts_.events;
+        if (!simultaneous_ && queue_.may_be_tied()) i = first_of_ties();
+        events += owned_[i];
         if (asleep_[i] || crossings_[i].time <= clock_.since_epoch(next_[i].time, epoch_))
             cross(i);
         else
@@ -53,19 +52,36 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
 /// Several events share this instant: lets the smaller id of each pair know of its event, so that the
 /// smallest id with an event now holds the first one.
 template <Acceleration A>
-void EventLoopOf<A>::order_ties() {
-    std::vector<std::uint32_t> tied;
-    queue_.for_each_first([&](std::uint32_t i) { tied.push_back(i); });
-    if (tied.size() < 2) return;
-    simultaneous_ = true;
-    for (const std::uint32_t i : tied) tell_lower(i);
+std::uint32_t EventLoopOf<A>::first_of_ties() {
+    tied_.clear();
+    queue_.for_each_first([&](std::uint32_t i) { tied_.push_back(i); });
+    const auto is_one_pair = [this] {
+        const NextEvent& a = next_[tied_[0]];
+        const NextEvent& b = next_[tied_[1]];
+        return a.partner == ids_[tied_[1]] && b.partner == ids_[tied_[0]] && a.time == b.time;
+    };
+    if (tied_.size() > 2 || (tied_.size() == 2 && !is_one_pair())) {
+        simultaneous_ = true;
+        for (const std::uint32_t i : tied_) tell_lower(i);
+    }
+    return queue_.first(ids_);
+}
+
+/// Hands the notes on, in batches, where they are not kept.
+template <Acceleration A>
+void EventLoopOf<A>::pass_on_notes() {
+    if (keeps_notes) return;
+    const std::vector<CollisionNote> batch = std::exchange(notes, {});
+    for (const CollisionNote& n : batch) on_note(n);
+    notes = std::move(const_cast<std::vector<CollisionNote>&>(batch));
+    notes.clear();
 }
 
 /// Many balls may meet at one instant, in a row of touching balls (N / 2)^2 times; what goes on has no end.
 template <Acceleration A>
 void EventLoopOf<A>::refuse_wedged(std::uint32_t i) const {
     std::ostringstream what;
-    what << "balls[" << i << "]: is wedged: more than " << most_events_at_once() << " events at time "
+    what << "balls[" << ids_[i] << "]: is wedged: more than " << most_events_at_once() << " events at time "
          << clock_.to_seconds(time_now())
          << " (it has no room to move, or loses energy without a contact_time)";
     throw std::runtime_error(what.str());
@@ -76,13 +92,11 @@ void EventLoopOf<A>::start_next_epoch(std::int64_t epoch) {
     const double passed = clock_.epoch_length() * (double(epoch) - double(epoch_));
     epoch_ = epoch;
     now_ = 0;
-    executor_.for_ranges(anchors_.size(), 4096, [this, passed](std::size_t first, std::size_t last) {
-        for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
-            if (is_static_[i]) continue;
-            crossings_[i].time -= passed;
-            queue_.put(i, key_of(i));
-        }
-    });
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        crossings_[i].time -= passed;
+        ends_[i] -= passed;
+        queue_.put(i, key_of(i));
+    }
     queue_.rebuild();
 }
 
@@ -92,12 +106,12 @@ void EventLoopOf<A>::cross(std::uint32_t i) {
     const Crossing crossing = crossings_[i];
     relist(i, {a.cell.x + crossing.dx, a.cell.y + crossing.dy});
     if (std::max(std::abs(a.cell.x), std::abs(a.cell.y)) >= GridAxis::kFarthest)
-        throw std::runtime_error("balls[" + std::to_string(i) +
+        throw std::runtime_error("balls[" + std::to_string(ids_[i]) +
                                  "]: flies more than a thousand million cells without an event");
     NextEvent best = next_[i];
     // The row of cells that comes into view.
-    const std::int32_t reach_x = cell_reach(grid_.x, i);
-    const std::int32_t reach_y = cell_reach(grid_.y, i);
+    const std::int32_t reach_x = cell_reach(bodies_.grid.x, i);
+    const std::int32_t reach_y = cell_reach(bodies_.grid.y, i);
     if (reaches_all(reach_x, reach_y)) {
         scan_listed(i, best);
     } else if (crossing.dx != 0) {
@@ -116,15 +130,42 @@ void EventLoopOf<A>::cross(std::uint32_t i) {
 template <Acceleration A>
 void EventLoopOf<A>::collide_first(std::uint32_t i) {
     const NextEvent event = next_[i];
-    if (event.partner >= ball_total() || is_static_[event.partner]) {
+    if (event.partner >= bodies_.count || bodies_.fixes(event.partner)) {
         collide_obstacle(i, event);
         return;
     }
-    if (anchors_[event.partner].stamp == event.stamp) {
-        collide_pair(i, event.partner, {event.image_x, event.image_y}, event.time);
-        return;
+    std::uint32_t j = event.local;
+    if (j == kNowhere) {  // predicted before the balls came here
+        bool is_inside = true;
+        j = find_beside(i, event.partner, is_inside);
+        if (j == kNowhere && !is_inside) return lose(i);
+        next_[i].local = j;
     }
-    expect(i, search(i));  // the partner has gone another way
+    if (j == kNowhere || anchors_[j].stamp != event.stamp)
+        expect(i, search(i));  // the partner has gone another way
+    else if (now_ > ends_[j])
+        lose(i);  // perhaps it has, perhaps not
+    else
+        collide_pair(i, j, {event.image_x, event.image_y}, event.time);
+}
+
+/// The ball of an id in the cells around ball i, where a partner in contact is. `is_inside` tells whether all
+/// of those cells are in the region.
+template <Acceleration A>
+std::uint32_t EventLoopOf<A>::find_beside(std::uint32_t i, std::uint32_t id, bool& is_inside) const {
+    const CellCoordinates c = anchors_[i].cell;
+    std::uint32_t found = kNowhere;
+    for (std::int32_t y = c.y - 1; y <= c.y + 1; ++y) {
+        for (std::int32_t x = c.x - 1; x <= c.x + 1; ++x) {
+            const std::int32_t place = place_of(i, {x, y});
+            is_inside = is_inside && place >= 0;
+            if (place >= 0)
+                cells_.for_each(place, [&](std::uint32_t j) {
+                    if (ids_[j] == id) found = j;
+                });
+        }
+    }
+    return found;
 }
 
 /// Anchors a ball at `t`, wrapped into the box. Gives the periods that the wrapping took away.
@@ -135,8 +176,13 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     const Motion<double> m = motion_of(i);
     const Vec2 x = position_at(m, since);
     const Vec2 v = velocity_at(m, since);
+    if (keeps_window && is_owned(i)) {
+        overwritten.push_back({a, periods_[i], last_overwritten[i]});
+        last_overwritten[i] = static_cast<std::uint32_t>(overwritten.size() - 1);
+    }
+    const Grid& grid = bodies_.grid;
     Image wrapped;
-    const Vec2 inside = {grid_.x.wrapped(x.x(), wrapped.x), grid_.y.wrapped(x.y(), wrapped.y)};
+    const Vec2 inside = {grid.x.wrapped(x.x(), wrapped.x), grid.y.wrapped(x.y(), wrapped.y)};
     a.x = inside.x();
     a.y = inside.y();
     a.vx = v.x();
@@ -144,6 +190,8 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     a.time = t;
     periods_[i].x += wrapped.x;
     periods_[i].y += wrapped.y;
+    frames_[i].x += wrapped.x * grid.x.count();
+    frames_[i].y += wrapped.y * grid.y.count();
     return wrapped;
 }
 
@@ -152,28 +200,37 @@ template <Acceleration A>
 void EventLoopOf<A>::settle(std::uint32_t i) {
     Anchor& a = anchors_[i];
     ++a.stamp;
-    relist(i, grid_.coordinates({a.x, a.y}));
+    relist(i, bodies_.grid.coordinates({a.x, a.y}));
 }
 
 /// Puts a ball into another cell's list; a large ball is in none.
 template <Acceleration A>
 void EventLoopOf<A>::relist(std::uint32_t i, CellCoordinates cell) {
     Anchor& a = anchors_[i];
+    const std::int32_t place = place_of(i, cell);
+    if (place < 0) return lose(i);
     a.cell = cell;
-    const std::int32_t storage = grid_.index(cell);
-    if (storage == a.storage) return;
+    if (place == a.place) return;
     if (!is_large(i)) {
-        cells_.remove(a.storage, i);
-        cells_.insert(storage, i);
+        cells_.remove(a.place, i);
+        cells_.insert(place, i);
     }
-    a.storage = storage;
+    a.place = place;
+    if (!keeps_window) return;
+    const CellCoordinates here{cell.x + frames_[i].x, cell.y + frames_[i].y};
+    if (is_owned(i)) {
+        visits.push_back({i, here});
+        if (region_.depth(here) > 0) touch(here);
+    } else {
+        visits_of_copies.push_back({i, here});
+    }
 }
 
 /// Centre i less centre j's image, both anchored at one time; the same bits as the prediction's, computed
 /// from the smaller id.
 template <Acceleration A>
 Vec2 EventLoopOf<A>::centres_offset(std::uint32_t i, std::uint32_t j, Image image) const {
-    if (j < i) return -centres_offset(j, i, -image);
+    if (ids_[j] < ids_[i]) return -centres_offset(j, i, -image);
     return Vec2(anchors_[i].x, anchors_[i].y) - Vec2(anchors_[j].x, anchors_[j].y) - offset_of(image);
 }
 
@@ -182,17 +239,19 @@ Vec2 EventLoopOf<A>::centres_offset(std::uint32_t i, std::uint32_t j, Image imag
 template <Acceleration A>
 double EventLoopOf<A>::restitution_at(double restitution, std::uint32_t i, std::uint32_t j,
                                       const Time& t) const {
-    if (physics_.contact_time == 0) return restitution;
+    if (bodies_.physics.contact_time == 0) return restitution;
     const double since = clock_.difference(t, std::max(last_collision_[i], last_collision_[j]));
-    return tc_restitution(restitution, since, physics_.contact_time);
+    return tc_restitution(restitution, since, bodies_.physics.contact_time);
 }
 
 template <Acceleration A>
 void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image, const Time& t) {
-    if (j < i) {
+    if (ids_[j] < ids_[i]) {
         std::swap(i, j);
         image = -image;
     }
+    remember(i, t, ids_[j]);
+    remember(j, t, ids_[i]);
     const Image wrapped_i = advance(i, t);
     const Image wrapped_j = advance(j, t);
     image = {image.x - wrapped_i.x + wrapped_j.x, image.y - wrapped_i.y + wrapped_j.y};
@@ -201,24 +260,25 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     const Vec2 va = {a.vx, a.vy};
     const Vec2 vb = {b.vx, b.vy};
     const Vec2 r = centres_offset(i, j, image);
-    const double restitution = restitution_at(
-        pair_restitution(physics_.restitution_rule, restitution_[i], restitution_[j]), i, j, t);
+    const double restitution =
+        restitution_at(pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(ids_[i]),
+                                        bodies_.restitution.of(ids_[j])),
+                       i, j, t);
     double pressure = 0;  // -f'' / 2 of the squared distance f: positive where the pair is pressed together
     if constexpr (A == Acceleration::kPerBall)
         pressure = -(length_squared<double>(va - vb) + dot<double>(r, acceleration_[i] - acceleration_[j]));
     const double separation = parting_speed(pressure, r);
     double impulse = 0;  // along the unit normal
-    const PairVelocities<double> after =
-        collide(va, vb, r, mass_[i], mass_[j], restitution, separation, &impulse);
+    const PairVelocities<double> after = collide(va, vb, r, bodies_.mass.of(ids_[i]),
+                                                 bodies_.mass.of(ids_[j]), restitution, separation, &impulse);
     a.vx = after.a.x();
     a.vy = after.a.y();
     b.vx = after.b.x();
     b.vy = after.b.y();
     const double distance = std::sqrt(length_squared(r));
-    virial_ += impulse * distance;
-    ++counts_.ball_collisions;
-    if (listener) report(t, CollisionKind::kBall, i, j, r / distance, impulse);
-    if (physics_.contact_time > 0) last_collision_[i] = last_collision_[j] = t;
+    ++collisions_of_all;
+    if (is_owned(i)) note(t, CollisionKind::kBall, i, ids_[j], r / distance, impulse, impulse * distance);
+    if (bodies_.physics.contact_time > 0) last_collision_[i] = last_collision_[j] = t;
     settle(i);
     settle(j);
     for (const std::uint32_t k : {i, j}) {
@@ -229,65 +289,92 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
 
 template <Acceleration A>
 void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
+    remember(i, event.time, event.partner);
     const Image wrapped = advance(i, event.time);
     const Image image = {event.image_x - wrapped.x, event.image_y - wrapped.y};
     Anchor& a = anchors_[i];
-    const bool is_ball = event.partner < ball_total();
+    const bool is_ball = event.partner < bodies_.count;
     Vec2 normal;  // from the obstacle to the ball, of any length
-    double restitution = physics_.domain.restitution;
+    double restitution = bodies_.physics.domain.restitution;
     if (is_ball) {
-        normal = centres_offset(i, event.partner, image);
-        restitution = restitution_[event.partner];
-    } else if (event.partner < first_side()) {
-        const Wall& wall = walls_[event.partner - ball_total()];
+        const Vec2 centre = {a.x, a.y};
+        const Vec2& fixed = bodies_.fixed[event.partner];
+        if (event.partner < ids_[i])
+            normal = -(fixed - centre - offset_of(-image));
+        else
+            normal = centre - fixed - offset_of(image);
+        restitution = bodies_.restitution.of(event.partner);
+    } else if (event.partner < bodies_.first_side()) {
+        const Wall& wall = bodies_.walls[event.partner - bodies_.count];
         const Vec2 centre = Vec2(a.x, a.y) - offset_of(image);
         normal = contact_normal<double>(centre, static_cast<WallFeature>(event.stamp), wall.from, wall.to);
         restitution = wall.restitution;
     } else {
-        const Side side = side_of(event.partner - first_side());
+        const Side side = side_of(event.partner - bodies_.first_side());
         normal = Vec2::Zero();
         normal[side.axis] = side.upper ? -1 : 1;
     }
-    restitution = pair_restitution(physics_.restitution_rule, restitution_[i], restitution);
+    restitution =
+        pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(ids_[i]), restitution);
     const double lasting = restitution_at(restitution, i, i, event.time);
     const Vec2 before = {a.vx, a.vy};
     const double length = std::sqrt(length_squared(normal));
     double pressure = 0;
     if constexpr (A != Acceleration::kNone) {
-        const bool is_round = is_ball || (event.partner < first_side() &&
+        const bool is_round = is_ball || (event.partner < bodies_.first_side() &&
                                           static_cast<WallFeature>(event.stamp) != WallFeature::kFace);
         pressure = -(dot(normal, acceleration_of(i)) + (is_round ? length_squared(before) : 0.0));
     }
     const double separation = parting_speed(pressure, normal);
-    const double factor = physics_.contact_time > 0 && lasting != restitution ? 1 : physics_.speed_factor;
+    const double factor =
+        bodies_.physics.contact_time > 0 && lasting != restitution ? 1 : bodies_.physics.speed_factor;
     Vec2 after = bounce<double>(before, normal, lasting, separation / factor);
     if (factor != 1) after *= factor;
     a.vx = after.x();
     a.vy = after.y();
-    const double impulse = mass_[i] * dot<double>(after - before, normal) / length;
-    ++(is_ball ? counts_.ball_collisions : counts_.wall_collisions);
-    if (is_ball) virial_ += impulse * length;
-    if (listener)
-        report(event.time, is_ball ? CollisionKind::kBall : CollisionKind::kWall, i,
-               is_ball ? event.partner : event.partner - ball_total(), normal / length, impulse);
-    if (physics_.contact_time > 0) last_collision_[i] = event.time;
+    const double impulse = bodies_.mass.of(ids_[i]) * dot<double>(after - before, normal) / length;
+    ++collisions_of_all;
+    if (is_owned(i))
+        note(event.time, is_ball ? CollisionKind::kBall : CollisionKind::kWall, i, event.partner,
+             normal / length, impulse, is_ball ? impulse * length : 0.0);
+    if (bodies_.physics.contact_time > 0) last_collision_[i] = event.time;
     settle(i);
     predict_crossing(i);
     expect(i, search(i));
 }
 
+/// Adds an event to a ball's history: two balls with equal histories since one state have done the same.
 template <Acceleration A>
-void EventLoopOf<A>::report(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t j,
-                            const Vec2& normal, double impulse) const {
-    const Vec2 point = Vec2(anchors_[i].x, anchors_[i].y) - radius_[i] * normal;
-    std::int32_t ignored = 0;
-    listener({clock_.to_seconds(t),
-              kind,
-              i,
-              j,
-              {grid_.x.wrapped(point.x(), ignored), grid_.y.wrapped(point.y(), ignored)},
-              normal,
-              impulse});
+void EventLoopOf<A>::remember(std::uint32_t i, const Time& t, std::uint32_t partner) {
+    if (!keeps_window) return;
+    std::uint64_t h = histories_[i] ^ std::bit_cast<std::uint64_t>(t.offset);
+    h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL + partner;
+    histories_[i] = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL;
+}
+
+template <Acceleration A>
+void EventLoopOf<A>::note(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t partner,
+                          const Vec2& normal, double impulse, double virial) {
+    CollisionNote& n = notes.emplace_back();
+    n.time = t;
+    n.lower = ids_[i];
+    n.higher = partner;
+    n.is_wall = kind == CollisionKind::kWall;
+    n.virial = virial;
+    if (listens) {
+        const Vec2 point = Vec2(anchors_[i].x, anchors_[i].y) - radius_of(i) * normal;
+        std::int32_t ignored = 0;
+        n.collision = {
+            clock_.to_seconds(t),
+            kind,
+            ids_[i],
+            kind == CollisionKind::kWall ? partner - bodies_.count : partner,
+            {bodies_.grid.x.wrapped(point.x(), ignored), bodies_.grid.y.wrapped(point.y(), ignored)},
+            normal,
+            impulse};
+    }
+    constexpr std::size_t kBatch = 1024;
+    if (!keeps_notes && notes.size() >= kBatch) pass_on_notes();
 }
 
 }  // namespace carom

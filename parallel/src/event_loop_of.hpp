@@ -20,14 +20,12 @@ enum class Acceleration : std::uint8_t { kNone, kUniform, kPerBall };
 template <Acceleration kAcceleration>
 class EventLoopOf final : public EventLoop {
  public:
-    EventLoopOf(const Physics& physics, std::span<const Ball> balls, std::span<const Wall> walls,
-                std::span<const Attractor> attractors, const Grid& grid, const Executor& executor);
+    using EventLoop::EventLoop;
 
-    void advance_to(const Time& end) override;
-    void update_field(const Time& t, std::span<const Attractor> attractors) override;
+    void predict_all(const Executor* executor) override;
+    void advance_to(const Time& end, bool inclusive) override;
+    void renew_field(const Time& t) override;
     void audit(std::vector<Violation>& found) const override;
-    [[nodiscard]] Ball ball_at(std::uint32_t id, const Time& t) const override;
-    [[nodiscard]] Vec2 unwrapped_position_at(std::uint32_t id, const Time& t) const override;
 
  private:
     /// Periods between the frames of a ball and its partner.
@@ -41,15 +39,9 @@ class EventLoopOf final : public EventLoop {
         bool upper;
     };
 
-    [[nodiscard]] std::uint32_t ball_total() const { return static_cast<std::uint32_t>(anchors_.size()); }
-    [[nodiscard]] std::uint32_t first_side() const {
-        return ball_total() + static_cast<std::uint32_t>(walls_.size());
-    }
-
     [[nodiscard]] Vec2 acceleration_of(std::uint32_t i) const {
         if constexpr (kAcceleration == Acceleration::kNone) return Vec2::Zero();
-        if constexpr (kAcceleration == Acceleration::kUniform)
-            return is_static_[i] ? Vec2(Vec2::Zero()) : physics_.gravity;
+        if constexpr (kAcceleration == Acceleration::kUniform) return bodies_.physics.gravity;
         return acceleration_[i];
     }
     [[nodiscard]] Motion<double> motion_of(std::uint32_t i) const {
@@ -57,7 +49,7 @@ class EventLoopOf final : public EventLoop {
         return {{a.x, a.y}, {a.vx, a.vy}, acceleration_of(i)};
     }
     [[nodiscard]] Vec2 offset_of(const Image& image) const {
-        return {image.x * grid_.x.length(), image.y * grid_.y.length()};
+        return {image.x * bodies_.grid.x.length(), image.y * bodies_.grid.y.length()};
     }
     /// A side of the domain as a half-plane: how far ball i is inside, and the motion of that gap.
     struct Gap {
@@ -70,22 +62,25 @@ class EventLoopOf final : public EventLoop {
 
     // Prediction: pure functions of the anchors.
     [[nodiscard]] Time predict_pair(std::uint32_t i, std::uint32_t j, Image image) const;
+    [[nodiscard]] Time predict_fixed(std::uint32_t i, std::uint32_t id, Image image) const;
     [[nodiscard]] NextEvent predict_obstacle(std::uint32_t i, std::uint32_t obstacle, Image image) const;
     [[nodiscard]] NextEvent predict_side(std::uint32_t i, std::uint32_t side) const;
     [[nodiscard]] bool precedes(const NextEvent& a, const NextEvent& b, std::uint32_t i) const;
 
     // Search: what ball i can meet from the cells around it.
-    [[nodiscard]] bool is_large(std::uint32_t i) const { return radius_[i] > largest_listed_radius_; }
+    [[nodiscard]] bool is_large(std::uint32_t i) const {
+        return !large_.empty() && radius_of(i) > bodies_.largest_listed_radius;
+    }
     /// How many cells away a ball may be and yet be touched before either centre crosses a border.
     [[nodiscard]] static std::int32_t reach(const GridAxis& axis, double radius_sum) {
         constexpr double kMost = 1 << 28;
         return 1 + static_cast<std::int32_t>(std::min(kMost, radius_sum * (1 + kCellMargin) / axis.width()));
     }
     [[nodiscard]] std::int32_t cell_reach(const GridAxis& axis, std::uint32_t i) const {
-        return is_large(i) ? reach(axis, radius_[i] + largest_listed_radius_) : 1;
+        return is_large(i) ? reach(axis, radius_of(i) + bodies_.largest_listed_radius) : 1;
     }
     [[nodiscard]] bool reaches_all(std::int32_t reach_x, std::int32_t reach_y) const {
-        return reach_x > 1 && (2.0 * reach_x + 1) * (2.0 * reach_y + 1) > grid_.cell_count();
+        return reach_x > 1 && (2.0 * reach_x + 1) * (2.0 * reach_y + 1) > bodies_.grid.cell_count();
     }
     /// The images of a ball `offset` cells behind that lie within `reach` cells: first and last, none when
     /// the first is greater.
@@ -123,21 +118,21 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] NextEvent search(std::uint32_t i) const;
     void expect(std::uint32_t i, const NextEvent& event);
     void wake_partner(std::uint32_t i);
+    void lose(std::uint32_t i);
     void tell_lower(std::uint32_t i);
     void relist(std::uint32_t i, CellCoordinates cell);
     void predict_crossing(std::uint32_t i);
-    void predict_all();
 
     // Events.
     void run_until(double end, bool inclusive);
     void start_next_epoch(std::int64_t epoch);
-    void order_ties();
-    [[nodiscard]] std::uint64_t most_events_at_once() const {
-        return 2'000'000 + 64 * std::uint64_t{ball_total()};
-    }
+    [[nodiscard]] std::uint32_t first_of_ties();
+    [[nodiscard]] std::uint64_t most_events_at_once() const { return 2'000'000 + 64 * std::uint64_t{size()}; }
     [[noreturn]] void refuse_wedged(std::uint32_t i) const;
     void cross(std::uint32_t i);
     void collide_first(std::uint32_t i);
+    [[nodiscard]] std::uint32_t find_beside(std::uint32_t i, std::uint32_t id, bool& is_inside) const;
+    void pass_on_notes();
     void collide_pair(std::uint32_t i, std::uint32_t j, Image image, const Time& t);
     void collide_obstacle(std::uint32_t i, const NextEvent& event);
     Image advance(std::uint32_t i, const Time& t);
@@ -145,19 +140,23 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] Vec2 centres_offset(std::uint32_t i, std::uint32_t j, Image image) const;
     void schedule(std::uint32_t i) { queue_.set(i, key_of(i)); }
     [[nodiscard]] double key_of(std::uint32_t i) const {
-        return asleep_[i] ? crossings_[i].time
-                          : std::min(clock_.since_epoch(next_[i].time, epoch_), crossings_[i].time);
+        const double key = asleep_[i]
+                               ? crossings_[i].time
+                               : std::min(clock_.since_epoch(next_[i].time, epoch_), crossings_[i].time);
+        return key <= ends_[i] ? key : std::numeric_limits<double>::infinity();
     }
     [[nodiscard]] Time time_now() const { return clock_.after({epoch_, 0}, now_); }
     /// The speed at which a contact pressed together must part to stay open for the rest time; `line` is its
     /// centre line or normal.
     [[nodiscard]] double parting_speed(double pressure, const Vec2& line) const {
-        return pressure > 0 ? pressure / std::sqrt(length_squared(line)) * physics_.rest_time / 2 : 0.0;
+        return pressure > 0 ? pressure / std::sqrt(length_squared(line)) * bodies_.physics.rest_time / 2
+                            : 0.0;
     }
     [[nodiscard]] double restitution_at(double restitution, std::uint32_t i, std::uint32_t j,
                                         const Time& t) const;
-    void report(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t j, const Vec2& normal,
-                double impulse) const;
+    void note(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t partner, const Vec2& normal,
+              double impulse, double virial);
+    void remember(std::uint32_t i, const Time& t, std::uint32_t partner);
 };
 
 }  // namespace carom

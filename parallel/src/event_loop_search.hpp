@@ -14,7 +14,7 @@ namespace carom {
 
 template <Acceleration A>
 Time EventLoopOf<A>::predict_pair(std::uint32_t i, std::uint32_t j, Image image) const {
-    if (j < i) {  // one order for a pair, whoever asks
+    if (ids_[j] < ids_[i]) {  // one order for a pair, whoever asks
         std::swap(i, j);
         image = -image;
     }
@@ -27,43 +27,67 @@ Time EventLoopOf<A>::predict_pair(std::uint32_t i, std::uint32_t j, Image image)
         since_a = clock_.difference(b.time, a.time);
     else
         since_b = clock_.difference(a.time, b.time);
-    const double sum = radius_[i] + radius_[j];
+    const double sum = radius_of(i) + radius_of(j);
     if constexpr (A == Acceleration::kNone) {
-        const Vec2 r = {(a.x + since_a * a.vx) - (b.x + since_b * b.vx) - image.x * grid_.x.length(),
-                        (a.y + since_a * a.vy) - (b.y + since_b * b.vy) - image.y * grid_.y.length()};
+        const GridAxis& axis_x = bodies_.grid.x;
+        const GridAxis& axis_y = bodies_.grid.y;
+        const Vec2 r = {(a.x + since_a * a.vx) - (b.x + since_b * b.vx) - image.x * axis_x.length(),
+                        (a.y + since_a * a.vy) - (b.y + since_b * b.vy) - image.y * axis_y.length()};
         return clock_.after(reference, disc_time_of_impact<double>(r, {a.vx - b.vx, a.vy - b.vy}, sum));
     } else {
         const Motion<double> ma = motion_of(i);
         const Motion<double> mb = motion_of(j);
         const Vec2 r = position_at(ma, since_a) - position_at(mb, since_b) - offset_of(image);
         const Vec2 v = velocity_at(ma, since_a) - velocity_at(mb, since_b);
-        if (A == Acceleration::kUniform && !is_static_[i] && !is_static_[j])
+        if (A == Acceleration::kUniform)
             return clock_.after(reference, disc_time_of_impact<double>(r, v, sum));
         return clock_.after(reference,
                             disc_time_of_impact<double>(r, v, ma.acceleration - mb.acceleration, sum));
     }
 }
 
+/// Ball i against a static ball; the offset of the centres counted from the smaller id, as for any pair.
+template <Acceleration A>
+Time EventLoopOf<A>::predict_fixed(std::uint32_t i, std::uint32_t id, Image image) const {
+    const Motion<double> m = motion_of(i);
+    const double sum = radius_of(i) + bodies_.radius.of(id);
+    Vec2 r = m.position - bodies_.fixed[id] - offset_of(image);
+    Vec2 v = m.velocity;
+    Vec2 acceleration = m.acceleration;
+    if (id < ids_[i]) {
+        r = bodies_.fixed[id] - m.position - offset_of(-image);
+        v = -v;
+        acceleration = -acceleration;
+    }
+    const double t = A == Acceleration::kNone ? disc_time_of_impact<double>(r, v, sum)
+                                              : disc_time_of_impact<double>(r, v, acceleration, sum);
+    return clock_.after(anchors_[i].time, t);
+}
+
 template <Acceleration A>
 NextEvent EventLoopOf<A>::predict_obstacle(std::uint32_t i, std::uint32_t obstacle, Image image) const {
-    if (obstacle < ball_total())
-        return {predict_pair(i, obstacle, image), obstacle, anchors_[obstacle].stamp, image.x, image.y};
+    if (obstacle < bodies_.count)
+        return {predict_fixed(i, obstacle, image), obstacle, 0, image.x, image.y, kNowhere};
     Motion<double> centre = motion_of(i);
     centre.position -= offset_of(image);
-    const Wall& wall = walls_[obstacle - ball_total()];
-    const WallHit<double> hit = wall_time_of_impact<double>(centre, radius_[i], wall.from, wall.to);
-    return {clock_.after(anchors_[i].time, hit.time), obstacle, static_cast<std::uint32_t>(hit.feature),
-            image.x, image.y};
+    const Wall& wall = bodies_.walls[obstacle - bodies_.count];
+    const WallHit<double> hit = wall_time_of_impact<double>(centre, radius_of(i), wall.from, wall.to);
+    return {clock_.after(anchors_[i].time, hit.time),
+            obstacle,
+            static_cast<std::uint32_t>(hit.feature),
+            image.x,
+            image.y,
+            kNowhere};
 }
 
 template <Acceleration A>
 auto EventLoopOf<A>::gap_to_side(std::uint32_t i, Side side) const -> Gap {
     const Motion<double> m = motion_of(i);
-    const Box& box = physics_.domain.box;
+    const Box& box = bodies_.physics.domain.box;
     if (side.upper)
-        return {(box.max[side.axis] - radius_[i]) - m.position[side.axis], -m.velocity[side.axis],
+        return {(box.max[side.axis] - radius_of(i)) - m.position[side.axis], -m.velocity[side.axis],
                 -m.acceleration[side.axis]};
-    return {m.position[side.axis] - (box.min[side.axis] + radius_[i]), m.velocity[side.axis],
+    return {m.position[side.axis] - (box.min[side.axis] + radius_of(i)), m.velocity[side.axis],
             m.acceleration[side.axis]};
 }
 
@@ -71,7 +95,11 @@ template <Acceleration A>
 NextEvent EventLoopOf<A>::predict_side(std::uint32_t i, std::uint32_t side) const {
     const Gap gap = gap_to_side(i, side_of(side));
     return {clock_.after(anchors_[i].time, side_time_of_impact(gap.distance, gap.speed, gap.acceleration)),
-            first_side() + side, 0, 0, 0};
+            bodies_.first_side() + side,
+            0,
+            0,
+            0,
+            kNowhere};
 }
 
 /// The total order of the events of one ball.
@@ -79,9 +107,10 @@ template <Acceleration A>
 bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint32_t i) const {
     if (a.time != b.time) return a.time < b.time;
     if (a.time == kNever) return false;
-    const auto key = [i](const NextEvent& e) {
-        const int sign = e.partner < i ? -1 : 1;  // the image as seen from the smaller id
-        return std::tuple(std::min(i, e.partner), std::max(i, e.partner), sign * e.image_x, sign * e.image_y);
+    const auto key = [id = ids_[i]](const NextEvent& e) {
+        const int sign = e.partner < id ? -1 : 1;  // the image as seen from the smaller id
+        return std::tuple(std::min(id, e.partner), std::max(id, e.partner), sign * e.image_x,
+                          sign * e.image_y);
     };
     return key(a) < key(b);
 }
@@ -90,7 +119,7 @@ bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint3
 /// Predicts ball i against ball j and keeps the better event.
 template <Acceleration A>
 void EventLoopOf<A>::consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) const {
-    const NextEvent event{predict_pair(i, j, image), j, anchors_[j].stamp, image.x, image.y};
+    const NextEvent event{predict_pair(i, j, image), ids_[j], anchors_[j].stamp, image.x, image.y, j};
     if (precedes(event, best, i)) best = event;
 }
 
@@ -100,11 +129,12 @@ void EventLoopOf<A>::consider_listed(std::uint32_t i, std::uint32_t j, CellCoord
                                      NextEvent& best) const {
     const Anchor& b = anchors_[j];
     Image image;
-    if (b.cell != cell) {  // the same storage cell, some turns of the fold away
+    if (b.cell != cell) {  // the same place, some turns of the fold or periods between the frames away
+        const Grid& grid = bodies_.grid;
         const std::int32_t dx = cell.x - b.cell.x;
         const std::int32_t dy = cell.y - b.cell.y;
-        if ((dx != 0 && !grid_.x.periodic()) || (dy != 0 && !grid_.y.periodic())) return;
-        image = {dx / grid_.x.count(), dy / grid_.y.count()};
+        if ((dx != 0 && !grid.x.periodic()) || (dy != 0 && !grid.y.periodic())) return;
+        image = {dx / grid.x.count(), dy / grid.y.count()};
     }
     consider(i, j, image, best);
 }
@@ -122,7 +152,7 @@ auto EventLoopOf<A>::present(std::uint32_t i) const -> Present {
               std::abs(since * a.vx) + std::abs(since * a.vy),
               0};
     if constexpr (A == Acceleration::kUniform) {
-        const Vec2 fall = since * physics_.gravity;
+        const Vec2 fall = since * bodies_.physics.gravity;
         p.x += since / 2 * fall.x();
         p.y += since / 2 * fall.y();
         p.vx += fall.x();
@@ -143,15 +173,16 @@ void EventLoopOf<A>::bound_times(std::uint32_t i, const Present& a, Candidates& 
     const double now = now_;
     const std::int64_t epoch = epoch_;
     const double epoch_length = clock_.epoch_length();
-    const double radius = radius_[i];
-    const double period_x = grid_.x.periodic() ? grid_.x.length() : 0;
-    const double period_y = grid_.y.periodic() ? grid_.y.length() : 0;
-    const double turns_x = grid_.x.periodic() ? 1 / grid_.x.length() : 0;
-    const double turns_y = grid_.y.periodic() ? 1 / grid_.y.length() : 0;
-    const double gx = A == Acceleration::kUniform ? physics_.gravity.x() : 0;
-    const double gy = A == Acceleration::kUniform ? physics_.gravity.y() : 0;
-    const double margin = margin_;
-    const double farthest = farthest_;
+    const double radius = radius_of(i);
+    const Grid& grid = bodies_.grid;
+    const double period_x = grid.x.periodic() ? grid.x.length() : 0;
+    const double period_y = grid.y.periodic() ? grid.y.length() : 0;
+    const double turns_x = grid.x.periodic() ? 1 / grid.x.length() : 0;
+    const double turns_y = grid.y.periodic() ? 1 / grid.y.length() : 0;
+    const double gx = A == Acceleration::kUniform ? bodies_.physics.gravity.x() : 0;
+    const double gy = A == Acceleration::kUniform ? bodies_.physics.gravity.y() : 0;
+    const double margin = bodies_.margin;
+    const double farthest = bodies_.farthest;
     constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
     constexpr double kNeverTime = std::numeric_limits<double>::infinity();
     alignas(64) double bx[kLanes], by[kLanes], bvx[kLanes], bvy[kLanes], since[kLanes], sum[kLanes];
@@ -166,7 +197,7 @@ void EventLoopOf<A>::bound_times(std::uint32_t i, const Present& a, Candidates& 
             bvy[k] = b.vy;
             since[k] = (now - b.time.offset) + epoch_length * static_cast<double>(epoch - b.time.epoch);
         }
-        if (!one_radius_)
+        if (!bodies_.radius.is_one())
             for (std::size_t k = 0; k < kLanes; ++k) sum[k] = radius + radius_[ids[k]];
         double* earliest = &found.earliest[first];
         for (std::size_t k = 0; k < kLanes; ++k) {
@@ -197,7 +228,8 @@ void EventLoopOf<A>::bound_times(std::uint32_t i, const Present& a, Candidates& 
             const double approach = -(x * vx + y * vy);
             const double moment = x * vy - y * vx;
             const double gap = distance_squared - sum_squared - margin * scale;
-            const double doubt = margin * (speed_squared + kDoubtfulShare * rounded_speed_squared) * scale;
+            const double doubt =
+                margin * (speed_squared + Bodies::kDoubtfulShare * rounded_speed_squared) * scale;
             const double discriminant = sum_squared * speed_squared - moment * moment + 4 * doubt;
             const double root = std::sqrt(discriminant > 0 ? discriminant : 0.0);
             const double t = gap / (root + approach) * (1 - margin);
@@ -219,7 +251,7 @@ void EventLoopOf<A>::consider_all(std::uint32_t i, const Present& place, Candida
     bound_times(i, place, found);
     const auto latest = [&] {
         return best.time == kNever ? std::numeric_limits<double>::max()
-                                   : clock_.since_epoch(best.time, epoch_) - now_ + time_margin_;
+                                   : clock_.since_epoch(best.time, epoch_) - now_ + bodies_.time_margin;
     };
     const auto place_bits = [&](double limit) {
         std::uint64_t bits = 0;
@@ -247,13 +279,14 @@ template <Acceleration A>
 void EventLoopOf<A>::scan_cells(std::uint32_t i, CellCoordinates first, CellCoordinates last,
                                 NextEvent& best) const {
     const Present place = present(i);
-    const bool filters = A != Acceleration::kPerBall && filters_ &&
-                         std::abs(place.x) + std::abs(place.y) + place.flight <= farthest_;
+    const bool filters = A != Acceleration::kPerBall && bodies_.filters &&
+                         std::abs(place.x) + std::abs(place.y) + place.flight <= bodies_.farthest;
     Candidates found;
     for (std::int32_t y = first.y; y <= last.y; ++y) {
         for (std::int32_t x = first.x; x <= last.x; ++x) {
             const CellCoordinates cell{x, y};
-            const std::int32_t storage = grid_.index(cell);
+            const std::int32_t storage = place_of(i, cell);
+            if (storage < 0) continue;
             if (!filters) {
                 cells_.for_each(storage, [&](std::uint32_t j) {
                     if (j != i) consider_listed(i, j, cell, best);
@@ -287,11 +320,12 @@ void EventLoopOf<A>::scan_cells(std::uint32_t i, CellCoordinates first, CellCoor
 template <Acceleration A>
 void EventLoopOf<A>::consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best) const {
     if (j == i) return;
-    const double sum = radius_[i] + radius_[j];
+    const double sum = radius_of(i) + radius_of(j);
+    const Grid& grid = bodies_.grid;
     const CellCoordinates& a = anchors_[i].cell;
     const CellCoordinates& b = anchors_[j].cell;
-    const auto [first_x, last_x] = images_within(grid_.x, a.x - b.x, reach(grid_.x, sum));
-    const auto [first_y, last_y] = images_within(grid_.y, a.y - b.y, reach(grid_.y, sum));
+    const auto [first_x, last_x] = images_within(grid.x, a.x - b.x, reach(grid.x, sum));
+    const auto [first_y, last_y] = images_within(grid.y, a.y - b.y, reach(grid.y, sum));
     for (std::int32_t x = first_x; x <= last_x; ++x)
         for (std::int32_t y = first_y; y <= last_y; ++y) consider(i, j, {x, y}, best);
 }
@@ -305,8 +339,8 @@ void EventLoopOf<A>::scan_large(std::uint32_t i, NextEvent& best) const {
 /// All other balls, for a ball so large that the cells within its reach are more than there are.
 template <Acceleration A>
 void EventLoopOf<A>::scan_listed(std::uint32_t i, NextEvent& best) const {
-    for (std::uint32_t j = 0; j < ball_total(); ++j)
-        if (!is_static_[j] && !is_large(j)) consider_images(i, j, best);
+    for (std::uint32_t j = 0; j < size(); ++j)
+        if (!is_large(j)) consider_images(i, j, best);
 }
 
 template <Acceleration A>
@@ -315,23 +349,26 @@ void EventLoopOf<A>::scan_obstacles(std::uint32_t i, NextEvent& best) const {
     const auto consider = [&](const NextEvent& event) {
         if (precedes(event, best, i)) best = event;
     };
+    const Grid& grid = bodies_.grid;
     const bool large = is_large(i);
-    for (const ObstacleEntry& entry : (large ? obstacles_of_large_ : obstacles_).at(a.storage)) {
+    const ObstacleMap& obstacles = large ? bodies_.obstacles_of_large : bodies_.obstacles;
+    if (!obstacles.empty()) {
         const auto turns = [](const GridAxis& axis, std::int32_t k) {
             return axis.periodic() ? (k - axis.fold(k)) / axis.count() : 0;
         };
-        consider(predict_obstacle(
-            i, entry.id,
-            {turns(grid_.x, a.cell.x) + entry.shift_x, turns(grid_.y, a.cell.y) + entry.shift_y}));
+        for (const ObstacleEntry& entry : obstacles.at(grid.index(a.cell)))
+            consider(predict_obstacle(
+                i, entry.id,
+                {turns(grid.x, a.cell.x) + entry.shift_x, turns(grid.y, a.cell.y) + entry.shift_y}));
     }
-    const std::array<Boundary, 2>& boundary = physics_.domain.boundary;
+    const std::array<Boundary, 2>& boundary = bodies_.physics.domain.boundary;
     if (boundary[0] == Boundary::kWall) {
         if (large || a.cell.x <= 0) consider(predict_side(i, 0));
-        if (large || a.cell.x >= grid_.x.count() - 1) consider(predict_side(i, 1));
+        if (large || a.cell.x >= grid.x.count() - 1) consider(predict_side(i, 1));
     }
     if (boundary[1] == Boundary::kWall) {
         if (large || a.cell.y <= 0) consider(predict_side(i, 2));
-        if (large || a.cell.y >= grid_.y.count() - 1) consider(predict_side(i, 3));
+        if (large || a.cell.y >= grid.y.count() - 1) consider(predict_side(i, 3));
     }
 }
 
@@ -340,8 +377,8 @@ template <Acceleration A>
 NextEvent EventLoopOf<A>::search(std::uint32_t i) const {
     NextEvent best;
     const CellCoordinates c = anchors_[i].cell;
-    const std::int32_t reach_x = cell_reach(grid_.x, i);
-    const std::int32_t reach_y = cell_reach(grid_.y, i);
+    const std::int32_t reach_x = cell_reach(bodies_.grid.x, i);
+    const std::int32_t reach_y = cell_reach(bodies_.grid.y, i);
     if (reaches_all(reach_x, reach_y))
         scan_listed(i, best);
     else
@@ -358,11 +395,14 @@ void EventLoopOf<A>::expect(std::uint32_t i, const NextEvent& event) {
     wake_partner(i);
     next_[i] = event;
     asleep_[i] = 0;
-    if (event.partner < ball_total() && !is_static_[event.partner]) {
-        const NextEvent& theirs = next_[event.partner];
-        asleep_[i] = theirs.partner == i && theirs.time == event.time && !asleep_[event.partner] &&
-                     theirs.stamp == anchors_[i].stamp && theirs.image_x == -event.image_x &&
-                     theirs.image_y == -event.image_y;
+    if (const std::uint32_t j = event.local; j != kNowhere) {
+        NextEvent& theirs = next_[j];
+        if (theirs.partner == ids_[i] && theirs.time == event.time && !asleep_[j] &&
+            theirs.stamp == anchors_[i].stamp && theirs.image_x == -event.image_x &&
+            theirs.image_y == -event.image_y && clock_.since_epoch(event.time, epoch_) <= ends_[j]) {
+            theirs.local = i;
+            asleep_[i] = 1;
+        }
     }
     schedule(i);
     if (simultaneous_) tell_lower(i);
@@ -371,23 +411,33 @@ void EventLoopOf<A>::expect(std::uint32_t i, const NextEvent& event) {
 /// Ball i's event is about to be dropped: a partner that relies on it looks after itself again.
 template <Acceleration A>
 void EventLoopOf<A>::wake_partner(std::uint32_t i) {
-    const std::uint32_t j = next_[i].partner;
-    if (j >= ball_total() || !asleep_[j] || next_[j].partner != i) return;
+    const std::uint32_t j = next_[i].local;
+    if (j == kNowhere || !asleep_[j] || next_[j].local != i) return;
     asleep_[j] = 0;
     schedule(j);
+}
+
+/// What ball i does from now on cannot be known here.
+template <Acceleration A>
+void EventLoopOf<A>::lose(std::uint32_t i) {
+    if (is_owned(i)) failed_ = true;
+    wake_partner(i);
+    asleep_[i] = 0;
+    ends_[i] = -std::numeric_limits<double>::infinity();
+    schedule(i);
 }
 
 /// Where many events share one instant their order counts: then a pair's event is known to its smaller id.
 template <Acceleration A>
 void EventLoopOf<A>::tell_lower(std::uint32_t i) {
     const NextEvent event = next_[i];
-    const std::uint32_t j = event.partner;
-    if (j >= i || is_static_[j] || anchors_[j].stamp != event.stamp) return;
-    const NextEvent theirs{event.time, i, anchors_[i].stamp, -event.image_x, -event.image_y};
+    const std::uint32_t j = event.local;
+    if (j == kNowhere || event.partner > ids_[i] || anchors_[j].stamp != event.stamp) return;
+    const NextEvent theirs{event.time, ids_[i], anchors_[i].stamp, -event.image_x, -event.image_y, i};
     if (precedes(theirs, next_[j], j)) {
         wake_partner(j);
         next_[j] = theirs;
-    } else if (!asleep_[j] || next_[j].partner != i) {
+    } else if (!asleep_[j] || next_[j].local != i) {
         return;
     }
     asleep_[j] = 0;
@@ -404,27 +454,30 @@ void EventLoopOf<A>::predict_crossing(std::uint32_t i) {
     const auto consider = [&](double time, std::int8_t dx, std::int8_t dy) {
         if (time < first.time) first = {time, dx, dy};
     };
-    consider(time_to_leave(grid_.x.border(a.cell.x + 1) - a.x, a.vx, acceleration.x(), since), 1, 0);
-    consider(time_to_leave(a.x - grid_.x.border(a.cell.x), -a.vx, -acceleration.x(), since), -1, 0);
-    consider(time_to_leave(grid_.y.border(a.cell.y + 1) - a.y, a.vy, acceleration.y(), since), 0, 1);
-    consider(time_to_leave(a.y - grid_.y.border(a.cell.y), -a.vy, -acceleration.y(), since), 0, -1);
+    const Grid& grid = bodies_.grid;
+    consider(time_to_leave(grid.x.border(a.cell.x + 1) - a.x, a.vx, acceleration.x(), since), 1, 0);
+    consider(time_to_leave(a.x - grid.x.border(a.cell.x), -a.vx, -acceleration.x(), since), -1, 0);
+    consider(time_to_leave(grid.y.border(a.cell.y + 1) - a.y, a.vy, acceleration.y(), since), 0, 1);
+    consider(time_to_leave(a.y - grid.y.border(a.cell.y), -a.vy, -acceleration.y(), since), 0, -1);
     first.time = std::max(anchored + first.time, now_);
     crossings_[i] = first;
 }
 
-/// All balls at once, side by side: each finds its own next event and tells nobody.
+/// All balls at once, side by side where there is an executor: each finds its own next event and tells
+/// nobody.
 template <Acceleration A>
-void EventLoopOf<A>::predict_all() {
-    executor_.for_ranges(anchors_.size(), 512, [this](std::size_t first, std::size_t last) {
+void EventLoopOf<A>::predict_all(const Executor* executor) {
+    const auto predict = [this](std::size_t first, std::size_t last) {
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
-            if (is_static_[i]) continue;
             next_[i] = search(i);
-            asleep_[i] = 0;
             predict_crossing(i);
-            queue_.put(i, key_of(i));
         }
-    });
-    queue_.rebuild();
+    };
+    if (executor != nullptr)
+        executor->for_ranges(anchors_.size(), 512, predict);
+    else
+        predict(0, anchors_.size());
+    start();
 }
 
 }  // namespace carom

@@ -28,23 +28,27 @@ struct Scales {
     double diameter = 1;      // mean of the moving balls
     double speed = 0;         // root mean square
     double acceleration = 0;  // largest
+    double mass = 1;          // mean
 };
 
 Scales scales_of(const Scene& scene, std::span<const Ball> balls) {
     Scales s;
     double diameters = 0;
     double speeds_squared = 0;
+    double masses = 0;
     double count = 0;
     for (const Ball& b : balls) {
         if (b.is_static) continue;
         ++count;
         diameters += 2 * b.radius;
         speeds_squared += length_squared(b.velocity);
+        masses += b.mass;
         const Vec2 a = scene.gravity + b.acceleration + field_at(scene.attractors, b.position);
         s.acceleration = std::max(s.acceleration, std::sqrt(length_squared(a)));
     }
     if (count == 0) return s;
     s.diameter = diameters / count;
+    s.mass = masses / count;
     s.speed = std::sqrt(speeds_squared / count);
     return s;
 }
@@ -107,6 +111,8 @@ Physics derive_physics(const Scene& scene, std::span<const Ball> balls) {
     if (!(natural > 0)) throw SceneError("attractors", "pull so hard on a ball that no time is short enough");
     p.clock = Clock(kEpochCrossings * (std::isfinite(natural) ? natural : 1.0));
     p.loses_energy = loses_energy(scene, balls);
+    const double virial = s.mass * s.diameter * s.diameter / (std::isfinite(natural) ? natural : 1.0);
+    if (std::isnormal(virial)) p.typical_virial = virial;
     const double derived = std::min(kContactCrossings * crossing_time, kContactFalls * falling_time);
     p.contact_time = scene.contact_time.value_or(p.loses_energy && std::isfinite(derived) ? derived : 0.0);
     p.rest_time =

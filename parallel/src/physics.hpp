@@ -16,6 +16,7 @@ struct Physics {
     double rest_time = 0;     ///< a contact under pressure parts for at least so long, see scales.cpp
     double speed_factor = 1;
     bool loses_energy = false;  ///< some restitution, or the speed factor, is below 1
+    double typical_virial = 1;  ///< of a collision: mass * speed * diameter
     Clock clock;
 };
 

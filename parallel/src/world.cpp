@@ -5,13 +5,14 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <mutex>
 #include <sstream>
 #include <stdexcept>
 
 #include <carom/broadphase/overlap.hpp>
 #include <carom/broadphase/placement.hpp>
 
-#include "event_loop.hpp"
+#include "engine.hpp"
 #include "executor.hpp"
 #include "physics.hpp"
 
@@ -76,35 +77,51 @@ std::uint64_t mix(std::uint64_t h) {
 
 class World::State {
  public:
-    State(const Scene& scene, const WorldOptions& options)
+    State(const Scene& scene, const WorldOptions& options) : State(scene, options, place_checked(scene)) {}
+
+    State(const Scene& scene, const WorldOptions& options, const std::vector<Ball>& balls)
         : executor(options.threads),
-          walls(scene.walls),
-          attractors(scene.attractors),
-          field_interval(scene.field_interval) {
-        const std::vector<Ball> balls = place_checked(scene);
-        physics = derive_physics(scene, balls);
-        in_equilibrium = !physics.loses_energy && scene.gravity.isZero(0) && scene.attractors.empty() &&
-                         std::ranges::all_of(balls, [](const Ball& b) { return b.acceleration.isZero(0); });
-        const Grid grid =
-            choose_grid(physics.domain, balls.size(), listed_diameter(balls), options.cell_size);
-        loop = make_event_loop(physics, balls, walls, attractors, grid, executor);
+          field_interval(scene.field_interval),
+          in_equilibrium(is_in_equilibrium(scene, balls)),
+          bodies(derive_physics(scene, balls), balls, scene.walls, scene.attractors,
+                 choose_grid(scene, balls, options.cell_size)) {
+        in_equilibrium = in_equilibrium && !bodies.physics.loses_energy;
+        engine = make_engine(bodies, balls, executor, options);
+        for (std::uint32_t i = 0; i < bodies.count; ++i)
+            if (bodies.fixes(i))
+                fixed_states.emplace_back(i, BallState{bodies.fixed[i], balls[i].velocity, bodies.fixed[i]});
     }
 
-    [[nodiscard]] std::size_t size() const { return loop->ball_count(); }
-    [[nodiscard]] Ball ball(std::size_t id) const {
-        return loop->ball_at(static_cast<std::uint32_t>(id), now);
+    [[nodiscard]] std::size_t size() const { return bodies.count; }
+
+    /// Every ball's state now, by id; read once for each time.
+    [[nodiscard]] const std::vector<BallState>& states() const {
+        const std::lock_guard lock(reading);
+        if (!is_read) {
+            read_states.resize(size());
+            for (const auto& [id, state] : fixed_states) read_states[id] = state;
+            engine->read(now, read_states);
+            is_read = true;
+        }
+        return read_states;
+    }
+    [[nodiscard]] Ball ball(std::uint32_t id, const BallState& s) const {
+        return {s.position,           s.velocity,         bodies.own_acceleration_of(id),
+                bodies.radius.of(id), bodies.mass.of(id), bodies.restitution.of(id),
+                bodies.fixes(id)};
     }
 
-    /// Sum of quantity(id) over all moving balls, compensated.
+    /// Sum of quantity(id, state) over all moving balls, compensated.
     template <class Quantity>
     [[nodiscard]] double sum(Quantity&& quantity) const {
+        const std::vector<BallState>& all = states();
         return executor
             .sum(size(), CompensatedSum{},
                  [&](std::size_t first, std::size_t last) {
                      CompensatedSum s;
                      for (std::size_t i = first; i < last; ++i) {
-                         const Ball b = ball(i);
-                         if (!b.is_static) s += quantity(i, b);
+                         const auto id = static_cast<std::uint32_t>(i);
+                         if (!bodies.fixes(id)) s += quantity(id, all[i]);
                      }
                      return s;
                  })
@@ -112,34 +129,47 @@ class World::State {
     }
 
     void advance_to(double time) {
-        const Time end = physics.clock.from_seconds(time);
+        const Time end = bodies.physics.clock.from_seconds(time);
         if (end == kNever)
             throw std::invalid_argument("time " + shown(time) +
                                         " is beyond what this scene's clock can tell");
-        if (!attractors.empty()) {
+        is_read = false;
+        Time horizon = kNever;
+        if (!bodies.attractors.empty()) {
             for (;; ++field_updates) {
                 const double next = double(field_updates + 1) * field_interval;
+                horizon = bodies.physics.clock.from_seconds(next);
                 if (!(next <= time)) break;
-                const Time t = physics.clock.from_seconds(next);
-                loop->advance_to(t);
-                loop->update_field(t, attractors);
+                engine->advance_to(horizon, horizon);
+                engine->renew_field(horizon);
             }
         }
-        loop->advance_to(end);
+        engine->advance_to(end, horizon);
         now = end;
         seconds = time;
     }
 
+    static bool is_in_equilibrium(const Scene& scene, const std::vector<Ball>& balls) {
+        return scene.gravity.isZero(0) && scene.attractors.empty() &&
+               std::ranges::all_of(balls, [](const Ball& b) { return b.acceleration.isZero(0); });
+    }
+    static Grid choose_grid(const Scene& scene, const std::vector<Ball>& balls, double cell_size) {
+        return carom::choose_grid(derive_physics(scene, balls).domain, balls.size(), listed_diameter(balls),
+                                  cell_size);
+    }
+
     Executor executor;
-    Physics physics;
-    std::vector<Wall> walls;
-    std::vector<Attractor> attractors;
     double field_interval;
     std::uint64_t field_updates = 0;
-    bool in_equilibrium = false;  // neither losses nor forces, so that one temperature holds throughout
-    std::unique_ptr<EventLoop> loop;
+    bool in_equilibrium;  // neither losses nor forces, so that one temperature holds throughout
+    Bodies bodies;
+    std::unique_ptr<Engine> engine;
+    std::vector<std::pair<std::uint32_t, BallState>> fixed_states;
     Time now;
     double seconds = 0;
+    mutable std::mutex reading;
+    mutable bool is_read = false;
+    mutable std::vector<BallState> read_states;
 };
 
 World::World(const Scene& scene, const WorldOptions& options)
@@ -166,65 +196,71 @@ std::size_t World::ball_count() const {
     return state_->size();
 }
 std::size_t World::wall_count() const {
-    return state_->walls.size();
+    return state_->bodies.walls.size();
 }
 int World::threads() const {
     return state_->executor.threads();
 }
 double World::cell_size() const {
-    return state_->loop->grid().x.width();
+    return state_->bodies.grid.x.width();
 }
 double World::contact_time() const {
-    return state_->physics.contact_time;
+    return state_->bodies.physics.contact_time;
 }
 const Domain& World::domain() const {
-    return state_->physics.domain;
+    return state_->bodies.physics.domain;
 }
 Counts World::counts() const {
-    return state_->loop->counts();
+    return state_->engine->counts();
 }
 double World::virial() const {
-    return state_->loop->virial();
+    return state_->engine->virial();
 }
 
 PlaneVectors World::positions() const {
-    PlaneVectors out(ball_count());
-    state_->executor.for_ranges(ball_count(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) out[i] = state_->ball(i).position;
-    });
+    const std::vector<BallState>& states = state_->states();
+    PlaneVectors out(states.size());
+    std::ranges::transform(states, out.begin(), &BallState::position);
     return out;
 }
 
 PlaneVectors World::velocities() const {
-    PlaneVectors out(ball_count());
-    state_->executor.for_ranges(ball_count(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) out[i] = state_->ball(i).velocity;
-    });
+    const std::vector<BallState>& states = state_->states();
+    PlaneVectors out(states.size());
+    std::ranges::transform(states, out.begin(), &BallState::velocity);
     return out;
 }
 
 std::vector<Ball> World::balls() const {
+    const std::vector<BallState>& states = state_->states();
     std::vector<Ball> out(ball_count());
     state_->executor.for_ranges(out.size(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) out[i] = state_->ball(i);
+        for (std::size_t i = first; i < last; ++i)
+            out[i] = state_->ball(static_cast<std::uint32_t>(i), states[i]);
     });
     return out;
 }
 
 double World::kinetic_energy() const {
-    return state_->sum([](std::size_t, const Ball& b) { return b.mass / 2 * length_squared(b.velocity); });
+    const Property& mass = state_->bodies.mass;
+    return state_->sum([&mass](std::uint32_t id, const BallState& s) {
+        return mass.of(id) / 2 * length_squared(s.velocity);
+    });
 }
 
 double World::energy() const {
-    return kinetic_energy() + state_->sum([this](std::size_t i, const Ball& b) {
-        const Vec2 x = state_->loop->unwrapped_position_at(static_cast<std::uint32_t>(i), state_->now);
-        return -b.mass * dot<double>(state_->physics.gravity + b.acceleration, x);
+    const Bodies& bodies = state_->bodies;
+    return kinetic_energy() + state_->sum([&bodies](std::uint32_t id, const BallState& s) {
+        return -bodies.mass.of(id) *
+               dot<double>(bodies.physics.gravity + bodies.own_acceleration_of(id), s.unwrapped);
     });
 }
 
 Vec2 World::momentum() const {
-    return {state_->sum([](std::size_t, const Ball& b) { return b.mass * b.velocity.x(); }),
-            state_->sum([](std::size_t, const Ball& b) { return b.mass * b.velocity.y(); })};
+    const Property& mass = state_->bodies.mass;
+    return {
+        state_->sum([&mass](std::uint32_t id, const BallState& s) { return mass.of(id) * s.velocity.x(); }),
+        state_->sum([&mass](std::uint32_t id, const BallState& s) { return mass.of(id) * s.velocity.y(); })};
 }
 
 std::optional<double> World::compressibility_factor() const {
@@ -232,7 +268,7 @@ std::optional<double> World::compressibility_factor() const {
     if (d.boundary[0] != Boundary::kPeriodic || d.boundary[1] != Boundary::kPeriodic || !(time() > 0))
         return std::nullopt;
     if (!state_->in_equilibrium) return std::nullopt;
-    const double moving = state_->sum([](std::size_t, const Ball&) { return 1.0; });
+    const double moving = state_->bodies.moving;
     const double kinetic = kinetic_energy();
     if (moving < 2 || !(kinetic > 0)) return std::nullopt;
     // NkT with the centre of mass at rest: 2 (N - 1) degrees of freedom share the kinetic energy.
@@ -242,27 +278,29 @@ std::optional<double> World::compressibility_factor() const {
 double World::max_overlap() const {
     Scene surroundings;
     surroundings.domain = domain();
-    surroundings.walls = state_->walls;
+    surroundings.walls = state_->bodies.walls;
     return carom::max_overlap(balls(), surroundings);
 }
 
 std::uint64_t World::state_hash() const {
-    return state_->executor.sum(ball_count(), std::uint64_t{0}, [this](std::size_t first, std::size_t last) {
-        std::uint64_t sum = 0;
-        for (std::size_t i = first; i < last; ++i) {
-            const Ball b = state_->ball(i);
-            std::uint64_t h = mix(i + 1);
-            for (const double x : {b.position.x(), b.position.y(), b.velocity.x(), b.velocity.y()})
-                h = mix(h ^ std::bit_cast<std::uint64_t>(x)) + h;
-            sum += h;
-        }
-        return sum;
-    });
+    const std::vector<BallState>& states = state_->states();
+    return state_->executor.sum(
+        ball_count(), std::uint64_t{0}, [&states](std::size_t first, std::size_t last) {
+            std::uint64_t sum = 0;
+            for (std::size_t i = first; i < last; ++i) {
+                const BallState& b = states[i];
+                std::uint64_t h = mix(i + 1);
+                for (const double x : {b.position.x(), b.position.y(), b.velocity.x(), b.velocity.y()})
+                    h = mix(h ^ std::bit_cast<std::uint64_t>(x)) + h;
+                sum += h;
+            }
+            return sum;
+        });
 }
 
 std::vector<Violation> World::validate() const {
     std::vector<Violation> found;
-    state_->loop->audit(found);
+    state_->engine->audit(found);
     constexpr double kRounding = 1e-9;
     if (const double deepest = max_overlap(); !(deepest <= kRounding))
         found.push_back({"two bodies overlap by " + std::to_string(deepest) + " of their radii's sum"});
@@ -270,7 +308,7 @@ std::vector<Violation> World::validate() const {
 }
 
 void World::on_collision(std::function<void(const Collision&)> listener) {
-    state_->loop->listener = std::move(listener);
+    state_->engine->listen(std::move(listener));
 }
 
 }  // namespace carom

@@ -44,11 +44,21 @@ TEST_P(Invariance, OfThreads) {
         EXPECT_EQ(hash_of(GetParam().scene, {.threads = threads}), one) << threads << " threads";
 }
 
+TEST_P(Invariance, OfDomains) {
+    const std::uint64_t one = hash_of(GetParam().scene, {.threads = 1, .domains = 1});
+    for (const int domains : {2, 3, 5, 8, 16})
+        for (const int halo : {0, 2})
+            EXPECT_EQ(hash_of(GetParam().scene, {.threads = 2, .domains = domains, .halo = halo}), one)
+                << domains << " domains with halo " << halo;
+}
+
 TEST_P(Invariance, OfFrames) {
     const std::uint64_t whole = hash_of(GetParam().scene, {.threads = 1});
     std::vector<double> frames;
     for (int k = 1; k < 375; ++k) frames.push_back(k / 60.0);
     EXPECT_EQ(hash_of(GetParam().scene, {.threads = 1}, frames), whole) << "frames of 1/60";
+
+    EXPECT_EQ(hash_of(GetParam().scene, {.threads = 2, .domains = 4}, frames), whole) << "frames and domains";
 
     constexpr std::uint64_t kSeed = 7;
     std::mt19937_64 random(kSeed);

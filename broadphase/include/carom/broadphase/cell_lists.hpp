@@ -17,6 +17,12 @@ class CellLists {
     CellLists() = default;
     explicit CellLists(std::size_t cells) : blocks_(cells) {}
 
+    /// Empties the lists and makes them so many.
+    void reset(std::size_t cells) {
+        blocks_.assign(cells, Block{});
+        free_.clear();
+    }
+
     void insert(std::int32_t cell, std::uint32_t id) {
         if (blocks_[cell].count == kBlockSize) {
             const std::int32_t full = take_block();

@@ -26,6 +26,7 @@ class ObstacleMap {
     ObstacleMap(const Grid& grid, std::span<const Ball> balls, std::span<const Wall> walls,
                 double largest_radius);
 
+    [[nodiscard]] bool empty() const { return entries_.empty(); }
     [[nodiscard]] std::span<const ObstacleEntry> at(std::int32_t cell) const {
         if (first_.empty()) return {};
         return std::span(entries_).subspan(first_[cell], first_[cell + 1] - first_[cell]);

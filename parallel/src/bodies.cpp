@@ -1,0 +1,85 @@
+#include "bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+
+Property::Property(std::vector<double> values) {
+    if (values.empty()) return;
+    one_ = values.front();
+    if (std::ranges::any_of(values, [this](double v) { return v != one_; })) each_ = std::move(values);
+}
+
+Bodies::Bodies(const Physics& scene_physics, std::span<const Ball> balls, std::span<const Wall> scene_walls,
+               std::span<const Attractor> scene_attractors, const Grid& scene_grid)
+    : physics(scene_physics),
+      grid(scene_grid),
+      walls(scene_walls.begin(), scene_walls.end()),
+      attractors(scene_attractors.begin(), scene_attractors.end()),
+      count(static_cast<std::uint32_t>(balls.size())) {
+    const auto values = [&balls](double Ball::* member) {
+        std::vector<double> all;
+        all.reserve(balls.size());
+        for (const Ball& b : balls) all.push_back(b.*member);
+        return Property(std::move(all));
+    };
+    radius = values(&Ball::radius);
+    mass = values(&Ball::mass);
+    restitution = values(&Ball::restitution);
+    if (std::ranges::any_of(balls, &Ball::is_static)) {
+        for (const Ball& b : balls) {
+            is_static.push_back(b.is_static ? 1 : 0);
+            std::int32_t ignored = 0;
+            fixed.emplace_back(grid.x.wrapped(b.position.x(), ignored),
+                               grid.y.wrapped(b.position.y(), ignored));
+        }
+    }
+    if (std::ranges::any_of(balls, [](const Ball& b) { return !b.is_static && !b.acceleration.isZero(0); }))
+        for (const Ball& b : balls) own_acceleration.push_back(b.acceleration);
+
+    const double widest = std::min(grid.x.width(), grid.y.width());
+    double largest_radius = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Ball& b = balls[i];
+        if (b.is_static) continue;
+        ++moving;
+        largest_radius = std::max(largest_radius, b.radius);
+        if (2 * b.radius * (1 + kCellMargin) > widest)
+            large.push_back(i);
+        else
+            largest_listed_radius = std::max(largest_listed_radius, b.radius);
+    }
+    obstacles = ObstacleMap(grid, balls, walls, largest_listed_radius);
+    if (!large.empty()) obstacles_of_large = ObstacleMap(grid, balls, walls, largest_radius);
+    choose_margins();
+}
+
+/// Margins within which bound_times() and the exact prediction agree.
+///
+/// Both round coordinates and flights of up to `farthest`, a handful of times each: 16 roundings bound the
+/// difference d of the centres' offsets r. The squared gap then differs by at most 2 |r| d <= (d / s) (r^2 +
+/// s^2) for any radii's sum s, the discriminant by 2 |r x v| |v| d <= (d / s) v^2 (r^2 + s^2) and r . v by
+/// d |v|; hence the margin 4 d / s for the smallest s, on top of the 2^-38 that leave the formulas' own
+/// roundings far behind. Under gravity the velocities are rounded as well, by 2^-49 of themselves: against
+/// 2^-38 that is a share of 2^-11 of the speed, squared kDoubtfulShare (and a factor 4).
+void Bodies::choose_margins() {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (!fixes(i)) smallest = std::min(smallest, radius.of(i));
+    const Box& box = physics.domain.box;
+    farthest = std::max(box.min.cwiseAbs().sum(), box.max.cwiseAbs().sum()) +
+               8 * (grid.x.length() + grid.y.length());
+    const double rounding = 16 * std::numeric_limits<double>::epsilon() * 4 * farthest;
+    margin = 0x1p-38 + 4 * rounding / (2 * smallest);
+    time_margin = 0x1p-46 * physics.clock.epoch_length();
+    constexpr std::int32_t kFewest =
+        6;  // cells; with fewer the nearest image need not be the one in the cell
+    const auto images_are_clear = [](const GridAxis& axis) {
+        return !axis.periodic() || axis.count() >= kFewest;
+    };
+    filters = margin < 0x1p-20 && images_are_clear(grid.x) && images_are_clear(grid.y);
+}
+
+}  // namespace carom

@@ -1,0 +1,74 @@
+// What does not change while a world runs and all domains share: the bodies' properties, the grid, the
+// obstacles, and the margins of the arithmetic.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <carom/broadphase/grid.hpp>
+#include <carom/broadphase/obstacles.hpp>
+
+#include "physics.hpp"
+
+namespace carom {
+
+/// A property that most scenes give to all balls alike: one value then, else one a ball.
+class Property {
+ public:
+    Property() = default;
+    explicit Property(std::vector<double> values);
+
+    [[nodiscard]] double of(std::uint32_t id) const { return each_.empty() ? one_ : each_[id]; }
+    [[nodiscard]] bool is_one() const { return each_.empty(); }
+
+ private:
+    double one_ = 0;
+    std::vector<double> each_;
+};
+
+struct Bodies {
+    Bodies(const Physics& physics, std::span<const Ball> balls, std::span<const Wall> walls,
+           std::span<const Attractor> attractors, const Grid& grid);
+
+    Physics physics;
+    Grid grid;
+    std::vector<Wall> walls;
+    std::vector<Attractor> attractors;
+    std::uint32_t count = 0;  ///< of all balls, static ones included
+    std::uint32_t moving = 0;
+    Property radius, mass, restitution;
+    std::vector<std::uint8_t> is_static;  ///< one a ball; empty where none is
+    std::vector<Vec2> own_acceleration;   ///< one a ball; empty where all are zero
+    std::vector<Vec2> fixed;              ///< the places of static balls, one a ball; empty where none is
+
+    ObstacleMap obstacles;
+    ObstacleMap obstacles_of_large;
+    std::vector<std::uint32_t> large;  ///< ids of moving balls wider than a cell, few
+    double largest_listed_radius = 0;  ///< of all other moving balls
+
+    /// Margins of EventLoopOf::bound_times(), see choose_margins().
+    bool filters = false;
+    double margin = 0;       ///< relative, of squared lengths
+    double farthest = 0;     ///< beyond such coordinates and flights the margin does not hold
+    double time_margin = 0;  ///< of times since the start of the epoch
+    static constexpr double kDoubtfulShare = 0x1p-20;
+
+    [[nodiscard]] bool fixes(std::uint32_t id) const { return !is_static.empty() && is_static[id] != 0; }
+    [[nodiscard]] Vec2 own_acceleration_of(std::uint32_t id) const {
+        return own_acceleration.empty() ? Vec2(Vec2::Zero()) : own_acceleration[id];
+    }
+    /// Whether accelerations differ from ball to ball.
+    [[nodiscard]] bool accelerates_each() const { return !own_acceleration.empty() || !attractors.empty(); }
+    /// Whether balls carry a BallExtra.
+    [[nodiscard]] bool needs_extras() const { return accelerates_each() || physics.contact_time > 0; }
+    /// Events are with partners numbered so: balls, then walls, then the domain's sides.
+    [[nodiscard]] std::uint32_t first_side() const {
+        return count + static_cast<std::uint32_t>(walls.size());
+    }
+
+ private:
+    void choose_margins();
+};
+
+}  // namespace carom

@@ -1,0 +1,110 @@
+// The choice between the engines, and the one that is a single loop.
+#include "engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+namespace {
+
+// A domain of about so many balls, with its halo, fits a core's second-level cache.
+constexpr double kBallsOfDomain = 6000;
+// With fewer balls a thread the halo costs more than another thread gives.
+constexpr double kFewestOfThread = 2000;
+
+int choose_domains(const Bodies& bodies, const Executor& executor, int wanted) {
+    if (!bodies.large.empty()) return 1;  // a large ball's surroundings may be the whole plane
+    if (wanted > 0) return wanted;
+    const double balls = bodies.moving;
+    const double by_cache = balls / kBallsOfDomain;
+    if (executor.threads() == 1) return by_cache < 4 ? 1 : static_cast<int>(by_cache);
+    if (balls < kFewestOfThread * 2) return 1;
+    const double by_threads = std::min<double>(2 * executor.threads(), balls / kFewestOfThread);
+    return static_cast<int>(std::max(by_cache, by_threads));
+}
+
+/// All balls in one loop.
+class SerialEngine final : public Engine {
+ public:
+    SerialEngine(const Bodies& bodies, std::span<const Ball> balls, const Executor& executor)
+        : Engine(bodies), executor_(executor), loop_(make_event_loop(bodies)) {
+        loop_->on_note = [this](const CollisionNote& note) {
+            count(note);
+            if (listener_) listener_(note.collision);
+        };
+        loop_->clear({bodies.grid, whole(bodies.grid.x), whole(bodies.grid.y), 0}, {});
+        const BallExtra extra;
+        for (const BallRecord& record : records_at_start(bodies, balls)) loop_->add(record, &extra, true);
+        if (bodies.accelerates_each()) loop_->renew_field({});
+        loop_->predict_all(&executor_);
+    }
+
+    void advance_to(const Time& end, const Time&) override {
+        loop_->advance_to(end, true);
+        counts_.events = loop_->events;
+    }
+    void renew_field(const Time& t) override {
+        loop_->renew_field(t);
+        loop_->predict_all(&executor_);
+        counts_.events = loop_->events;
+    }
+    void read(const Time& t, std::span<BallState> states) const override {
+        executor_.for_ranges(loop_->size(), 4096, [&](std::size_t first, std::size_t last) {
+            for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
+                states[loop_->id(i)] = loop_->state(i, t);
+        });
+    }
+    void audit(std::vector<Violation>& found) const override { loop_->audit(found); }
+    void listen(std::function<void(const Collision&)> listener) override {
+        listener_ = std::move(listener);
+        loop_->listens = static_cast<bool>(listener_);
+    }
+
+ private:
+    const Executor& executor_;
+    std::unique_ptr<EventLoop> loop_;
+};
+
+}  // namespace
+
+Engine::Engine(const Bodies& bodies) : bodies_(bodies) {
+    virial_.set_scale(bodies.physics.typical_virial);
+}
+
+void Engine::count(const CollisionNote& note) {
+    if (note.is_wall) {
+        ++counts_.wall_collisions;
+    } else {
+        ++counts_.ball_collisions;
+        virial_ += note.virial;
+    }
+}
+
+std::vector<BallRecord> records_at_start(const Bodies& bodies, std::span<const Ball> balls) {
+    std::vector<BallRecord> records;
+    records.reserve(bodies.moving);
+    for (std::uint32_t i = 0; i < bodies.count; ++i) {
+        if (bodies.fixes(i)) continue;
+        const Ball& b = balls[i];
+        BallRecord& r = records.emplace_back();
+        const double x = bodies.grid.x.wrapped(b.position.x(), r.periods.x);
+        const double y = bodies.grid.y.wrapped(b.position.y(), r.periods.y);
+        r.anchor = {x, y, b.velocity.x(), b.velocity.y(), {}, 0, 0, bodies.grid.coordinates({x, y})};
+        r.id = i;
+    }
+    return records;
+}
+
+std::unique_ptr<Engine> make_serial_engine(const Bodies& bodies, std::span<const Ball> balls,
+                                           const Executor& executor) {
+    return std::make_unique<SerialEngine>(bodies, balls, executor);
+}
+
+std::unique_ptr<Engine> make_engine(const Bodies& bodies, std::span<const Ball> balls,
+                                    const Executor& executor, const WorldOptions& options) {
+    const int domains = choose_domains(bodies, executor, options.domains);
+    if (domains <= 1) return make_serial_engine(bodies, balls, executor);
+    return make_windowed_engine(bodies, balls, executor, domains, options.halo);
+}
+
+}  // namespace carom

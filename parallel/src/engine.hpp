@@ -1,0 +1,60 @@
+// What moves a world's balls: one loop over all of them, or domains side by side. The two give the same bits.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "ball_record.hpp"
+#include "bodies.hpp"
+#include "event_loop.hpp"
+#include "executor.hpp"
+#include "ordered_sum.hpp"
+
+namespace carom {
+
+class Engine {
+ public:
+    virtual ~Engine() = default;
+
+    /// Resolves all events up to and including `end`. What lies beyond `horizon` >= end must not be looked at
+    /// yet: the field changes there.
+    virtual void advance_to(const Time& end, const Time& horizon) = 0;
+    /// Anchors every ball at `t`, up to which all has been advanced, with the field's new acceleration.
+    virtual void renew_field(const Time& t) = 0;
+    /// The moving balls' states at `t`, the time advanced to last: states[id].
+    virtual void read(const Time& t, std::span<BallState> states) const = 0;
+    /// Every broken rule of the loops.
+    virtual void audit(std::vector<Violation>& found) const = 0;
+    /// Collisions are told from the time advanced to last on; an empty function turns it off.
+    virtual void listen(std::function<void(const Collision&)> listener) = 0;
+
+    [[nodiscard]] const Counts& counts() const { return counts_; }
+    [[nodiscard]] double virial() const { return virial_.value(); }
+
+ protected:
+    explicit Engine(const Bodies& bodies);
+    void count(const CollisionNote& note);
+
+    const Bodies& bodies_;
+    std::function<void(const Collision&)> listener_;
+    Counts counts_;
+    OrderedSum virial_;
+};
+
+/// `balls` are the scene's at time 0. `bodies` and `executor` must outlive the engine. `domains` 0 lets the
+/// engine choose.
+[[nodiscard]] std::unique_ptr<Engine> make_engine(const Bodies& bodies, std::span<const Ball> balls,
+                                                  const Executor& executor, const WorldOptions& options);
+
+/// The moving balls at time 0, without predictions.
+[[nodiscard]] std::vector<BallRecord> records_at_start(const Bodies& bodies, std::span<const Ball> balls);
+
+[[nodiscard]] std::unique_ptr<Engine> make_serial_engine(const Bodies& bodies, std::span<const Ball> balls,
+                                                         const Executor& executor);
+[[nodiscard]] std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, std::span<const Ball> balls,
+                                                           const Executor& executor, int domains, int halo);
+
+}  // namespace carom

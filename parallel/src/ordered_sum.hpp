@@ -1,0 +1,37 @@
+// A sum that does not depend on the order of its terms.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace carom {
+
+/// Adds doubles as integers of 128 bits, so that any order and any split gives the same bits. A term is cut
+/// at 2^-50 of the typical one; the sum holds 2^76 typical terms.
+class OrderedSum {
+ public:
+    /// `typical` > 0: the size of a term; its power of two counts only.
+    void set_scale(double typical) { exponent_ = 50 - std::ilogb(typical); }
+
+    OrderedSum& operator+=(double term) {
+        const double scaled = std::ldexp(term, exponent_);
+        if (std::abs(scaled) < 0x1p120)
+            sum_ += static_cast<Integer>(scaled);
+        else
+            is_lost_ = true;
+        return *this;
+    }
+    [[nodiscard]] double value() const {
+        if (is_lost_) return std::numeric_limits<double>::quiet_NaN();
+        return std::ldexp(static_cast<double>(sum_), -exponent_);
+    }
+
+ private:
+    __extension__ using Integer = __int128;
+    Integer sum_ = 0;
+    int exponent_ = 0;
+    bool is_lost_ = false;
+};
+
+}  // namespace carom

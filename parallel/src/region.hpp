@@ -1,0 +1,153 @@
+// The part of the plane that one domain simulates: the cells of its own and a halo around them.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include <carom/broadphase/grid.hpp>
+
+namespace carom {
+
+/// Cells [first, last) along one axis.
+struct Span {
+    std::int32_t first = 0;
+    std::int32_t last = 0;
+    [[nodiscard]] std::int64_t size() const { return std::int64_t{last} - first; }
+    [[nodiscard]] bool contains(std::int32_t k) const { return k >= first && k < last; }
+};
+
+/// One axis of a region: the domain's own cells with a halo, or the whole axis where that is no less.
+///
+/// Cells are stored at places [0, size()). On a periodic axis a cell's coordinate is first moved by whole
+/// periods into the region's frame; on any other axis a domain at the edge reaches out as far as balls fly,
+/// and coordinates fold into the places as they do in the whole grid.
+class RegionAxis {
+ public:
+    RegionAxis() = default;
+    RegionAxis(const GridAxis& axis, Span own, std::int32_t halo) : own_(own), count_(axis.count()) {
+        constexpr std::int32_t kFarthest = GridAxis::kFarthest;
+        if (axis.periodic()) {
+            is_window_ = own.size() + 2 * std::int64_t{halo} < count_;
+            reach_ = is_window_ ? Span{own.first - halo, own.last + halo} : Span{0, count_};
+            size_ = static_cast<std::int32_t>(reach_.size());
+            periodic_ = true;
+        } else {
+            reach_ = {own.first <= -kFarthest ? -kFarthest : own.first - halo,
+                      own.last >= kFarthest ? kFarthest : own.last + halo};
+            const std::int32_t low = std::max(reach_.first, 0);
+            size_ = std::max(1, std::min(reach_.last, count_) - low);
+            base_ = low;
+        }
+    }
+
+    [[nodiscard]] std::int32_t size() const { return size_; }
+    [[nodiscard]] const Span& own() const { return own_; }
+
+    /// What to add to a ball's cell coordinate `k` to have it in the region's frame.
+    [[nodiscard]] std::int32_t frame_of(std::int32_t k) const {
+        if (!periodic_) return 0;
+        return is_window_ ? reach_.first + folded(k - reach_.first, count_) - k : folded(k, count_) - k;
+    }
+    /// Whether a coordinate in the region's frame lies in it.
+    [[nodiscard]] bool contains(std::int32_t k) const {
+        return (periodic_ && !is_window_) || reach_.contains(k);
+    }
+    /// Marks are numbered like places, but that the cells beyond either end share one: [0, size() + 2).
+    [[nodiscard]] std::int32_t mark(std::int32_t k) const {
+        if (periodic_) return place(k) + 1;
+        return std::clamp(k - base_, -1, size_) + 1;
+    }
+    /// The coordinate in the region's frame that mark `m` stands for, the innermost where there are several.
+    [[nodiscard]] std::int32_t marked(std::int32_t m) const {
+        return m - 1 + (is_window_ ? reach_.first : base_);
+    }
+    /// How many cells a coordinate in the region's frame is beyond the domain's own, 0 inside.
+    [[nodiscard]] std::int32_t depth(std::int32_t k) const {
+        if (periodic_ && !is_window_) {
+            const std::int32_t in = folded(k - own_.first, count_);
+            const auto width = static_cast<std::int32_t>(own_.size());
+            return in < width ? 0 : std::min(in - width + 1, count_ - in);
+        }
+        return k < own_.first ? own_.first - k : (k >= own_.last ? k - own_.last + 1 : 0);
+    }
+    /// Whether one of the cells [first, last) of the axis may lie in the region, in any image.
+    [[nodiscard]] bool meets(Span cells) const {
+        if (cells.size() <= 0) return false;
+        if (!periodic_) return cells.first < reach_.last && cells.last > reach_.first;
+        const std::int32_t in = folded(cells.first - reach_.first, count_);
+        return in < size_ || in + cells.size() > count_;
+    }
+    [[nodiscard]] bool meets(const RegionAxis& other) const {
+        if (!periodic_) return meets(other.reach_);
+        return !is_window_ || !other.is_window_ ||
+               meets(Span{folded(other.reach_.first, count_),
+                          folded(other.reach_.first, count_) + other.size_});
+    }
+    /// Whether a coordinate in the region's frame is among the domain's own and `distance` cells from others.
+    [[nodiscard]] bool is_deep_inside(std::int32_t k, std::int32_t distance) const {
+        if (own_.size() >= count_) return true;
+        return k - own_.first >= distance && own_.last - 1 - k >= distance;
+    }
+    /// The place of a coordinate in the region's frame; -1 outside.
+    [[nodiscard]] std::int32_t place(std::int32_t k) const {
+        if (is_window_) {
+            const std::int32_t in = k - reach_.first;
+            return static_cast<std::uint32_t>(in) < static_cast<std::uint32_t>(size_) ? in : -1;
+        }
+        if (!contains(k)) return -1;
+        const std::int32_t in = k - base_;
+        return static_cast<std::uint32_t>(in) < static_cast<std::uint32_t>(size_) ? in : folded(in, size_);
+    }
+
+    [[nodiscard]] static std::int32_t folded(std::int32_t k, std::int32_t count) {
+        const std::int32_t rest = k % count;
+        return rest < 0 ? rest + count : rest;
+    }
+
+ private:
+    Span own_;
+    Span reach_;
+    std::int32_t count_ = 1;  // cells of the whole axis
+    std::int32_t size_ = 1;
+    std::int32_t base_ = 0;
+    bool periodic_ = false;
+    bool is_window_ = false;  // periodic, and not the whole axis
+};
+
+struct Region {
+    RegionAxis x;
+    RegionAxis y;
+
+    Region() = default;
+    Region(const Grid& grid, Span own_x, Span own_y, std::int32_t halo)
+        : x(grid.x, own_x, halo), y(grid.y, own_y, halo) {}
+
+    [[nodiscard]] std::int32_t size() const { return x.size() * y.size(); }
+    /// The place of a cell in the region's frame; -1 outside.
+    [[nodiscard]] std::int32_t place(const CellCoordinates& c) const {
+        const std::int32_t px = x.place(c.x);
+        const std::int32_t py = y.place(c.y);
+        return (px | py) < 0 ? -1 : py * x.size() + px;
+    }
+    [[nodiscard]] std::int32_t mark_count() const { return (x.size() + 2) * (y.size() + 2); }
+    /// The mark of a cell in the region's frame; -1 outside.
+    [[nodiscard]] std::int32_t mark(const CellCoordinates& c) const {
+        return x.contains(c.x) && y.contains(c.y) ? y.mark(c.y) * (x.size() + 2) + x.mark(c.x) : -1;
+    }
+    [[nodiscard]] bool meets(const Region& other) const { return x.meets(other.x) && y.meets(other.y); }
+    [[nodiscard]] std::int32_t depth(const CellCoordinates& c) const {
+        return std::max(x.depth(c.x), y.depth(c.y));
+    }
+    /// What to add to a ball's cell to have it in the region's frame.
+    [[nodiscard]] CellCoordinates frame_of(const CellCoordinates& c) const {
+        return {x.frame_of(c.x), y.frame_of(c.y)};
+    }
+};
+
+/// The whole axis: all that a ball can reach.
+[[nodiscard]] inline Span whole(const GridAxis& axis) {
+    if (axis.periodic()) return {0, axis.count()};
+    return {-GridAxis::kFarthest, GridAxis::kFarthest};
+}
+
+}  // namespace carom

@@ -1,0 +1,70 @@
+// Domains side by side, exactly: each goes through a window of time on its own with copies of the balls
+// around it, then what the copies did is compared with what their owners did. docs/domains.md has the
+// argument why equal histories are the serial ones.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "domain_state.hpp"
+#include "engine.hpp"
+
+namespace carom {
+
+class WindowedEngine final : public Engine {
+ public:
+    WindowedEngine(const Bodies& bodies, std::span<const Ball> balls, const Executor& executor, int domains,
+                   int halo);
+
+    void advance_to(const Time& end, const Time& horizon) override;
+    void renew_field(const Time& t) override;
+    void read(const Time& t, std::span<BallState> states) const override;
+    void audit(std::vector<Violation>& found) const override;
+    void listen(std::function<void(const Collision&)> listener) override;
+
+ private:
+    // What a domain works with while it runs; as many as there are threads, used again and again.
+    struct Workshop {
+        std::unique_ptr<EventLoop> loop;
+        std::vector<Origin> origins;  // one a ball of the loop
+    };
+    class Lease;
+
+    template <class F>
+    void for_each_domain(F&& f) const;
+    void split(std::vector<BallRecord> records, std::vector<BallExtra> extras, Span x, Span y, int parts);
+    void split_anew();
+    void index_records(DomainState& d) const;
+    void load(Workshop& w, const DomainState& d, const Region& region, const Time& window_end,
+              bool ends_early) const;
+    void run(DomainState& d, const Time& window_end, bool inclusive);
+    void keep_outcome(DomainState& d, Workshop& w, const Time& window_end);
+    [[nodiscard]] bool agrees(const DomainState& d) const;
+    [[nodiscard]] bool try_window(const Time& window_end, bool inclusive);
+    void run_together(const Time& window_end, bool inclusive);
+    void predict_anew(bool renews_field);
+    void next_window(const Time& horizon);
+    void commit();
+    void rewind_to_now();
+    void tell_until(const Time& end);
+    void tune(double length, bool agreed);
+
+    const Executor& executor_;
+    int wanted_domains_;
+    std::int32_t halo_;
+    mutable std::mutex mutex_;
+    mutable std::vector<std::unique_ptr<Workshop>> idle_;
+    std::vector<DomainState> domains_;
+
+    Time now_;  // advanced to, as the world sees it
+    Time window_start_;
+    Time window_end_;                // >= now_
+    bool in_window_ = false;         // whether results are there
+    bool window_is_closed_ = false;  // whether events at window_end_ are resolved
+    double window_length_;
+    double target_ = 1;  // collisions a ball in a window
+    int since_split_ = 0;
+};
+
+}  // namespace carom

@@ -1,0 +1,156 @@
+// Domains side by side: what they promise is one result, and that what goes wrong in a window is found and
+// mended.
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include <carom/parallel/world.hpp>
+
+#include "scenes.hpp"
+
+namespace carom::test {
+namespace {
+
+/// What a run shows: the state, the counts, and every collision in order.
+struct Outcome {
+    std::uint64_t hash = 0;
+    std::uint64_t balls = 0;
+    std::uint64_t walls = 0;
+    double virial = 0;
+    std::vector<std::tuple<double, std::uint32_t, std::uint32_t, double>> collisions;
+    Counts counts;
+};
+
+Outcome run(const Scene& scene, const WorldOptions& options, double until, double step = 0) {
+    Outcome out;
+    World world(scene, options);
+    world.on_collision(
+        [&out](const Collision& c) { out.collisions.emplace_back(c.time, c.i, c.j, c.impulse); });
+    for (int k = 1; step > 0 && k * step < until; ++k) world.advance_to(k * step);
+    world.advance_to(until);
+    EXPECT_TRUE(world.validate().empty()) << world.validate().front().what;
+    out.hash = world.state_hash();
+    out.counts = world.counts();
+    out.balls = out.counts.ball_collisions;
+    out.walls = out.counts.wall_collisions;
+    out.virial = world.virial();
+    return out;
+}
+
+void expect_equal(const Outcome& a, const Outcome& b) {
+    EXPECT_EQ(a.hash, b.hash);
+    EXPECT_EQ(a.balls, b.balls);
+    EXPECT_EQ(a.walls, b.walls);
+    EXPECT_EQ(a.virial, b.virial);  // to the bit: the sum must not know who added
+    // Not EXPECT_EQ: on a failure it would print thousands of lines.
+    EXPECT_TRUE(a.collisions == b.collisions) << "the lists of collisions differ";
+}
+
+/// Scenes in which load, speed and place are as uneven as they get.
+std::vector<NamedScene> uneven_scenes() {
+    std::vector<NamedScene> all;
+    const auto kWall = Boundary::kWall;
+    const auto kOpen = Boundary::kOpen;
+
+    Scene corner = gas(31, {.count = 900, .packing = 0.5});
+    corner.domain->boundary = {kWall, kWall};
+    corner.domain->box.max *= 6;
+    all.push_back({"all in one corner", corner});
+
+    Scene fast = gas(32, {.count = 900, .packing = 0.3});
+    for (std::size_t i = 0; i < fast.balls.size(); i += 100) fast.balls[i].velocity *= 300;
+    all.push_back({"a few fast balls", fast});
+
+    Scene pour =
+        gas(33, {.count = 900, .packing = 0.4, .boundary_x = kWall, .boundary_y = kWall, .restitution = 0.7});
+    pour.domain->box.max.y() *= 3;
+    pour.gravity = {0, -1};
+    pour.walls = {{{0, 8}, {12, 3}, 0.7}, {{30, 10}, {18, 5}, 0.7}};
+    std::erase_if(pour.balls, [&](const Ball& b) { return b.position.y() < 13; });
+    all.push_back({"pour onto slanted walls", pour});
+
+    Scene burst = gas(34, {.count = 900, .packing = 0.5, .boundary_x = kOpen, .boundary_y = kOpen});
+    all.push_back({"burst into the open", burst});
+
+    Scene half = gas(35, {.count = 900, .packing = 0.55, .boundary_y = kWall});
+    std::erase_if(half.balls, [&](const Ball& b) { return b.position.x() > 0.4 * half.domain->box.max.x(); });
+    all.push_back({"half empty", half});
+
+    Scene still = gas(36, {.count = 900, .packing = 0.5});
+    for (Ball& b : still.balls) b.velocity.setZero();
+    still.balls[450].velocity = {40, 7};
+    all.push_back({"one moves at first", still});
+    return all;
+}
+
+class Domains : public testing::TestWithParam<NamedScene> {};
+
+TEST_P(Domains, GiveTheSerialResult) {
+    constexpr double kEnd = 5;
+    const Outcome serial = run(GetParam().scene, {.threads = 1, .domains = 1}, kEnd);
+    ASSERT_GT(serial.collisions.size(), 50U);
+    for (const int domains : {2, 3, 5, 8, 16}) {
+        SCOPED_TRACE(std::to_string(domains) + " domains");
+        expect_equal(run(GetParam().scene, {.threads = 2, .domains = domains}, kEnd), serial);
+    }
+}
+
+TEST_P(Domains, GiveTheSerialResultInFrames) {
+    constexpr double kEnd = 2;
+    const Outcome serial = run(GetParam().scene, {.threads = 1, .domains = 1}, kEnd);
+    expect_equal(run(GetParam().scene, {.threads = 2, .domains = 6}, kEnd, 1.0 / 60), serial);
+}
+
+/// With a halo of one or two cells what happens beyond it reaches the domain at once: the comparison must see
+/// it, and the repairs must lead to the serial result.
+TEST_P(Domains, MendAHaloThatIsTooThin) {
+    constexpr double kEnd = 3;
+    const Outcome serial = run(GetParam().scene, {.threads = 1, .domains = 1}, kEnd);
+    std::uint64_t retries = 0;
+    for (const int halo : {1, 2}) {
+        SCOPED_TRACE("halo of " + std::to_string(halo));
+        const Outcome thin = run(GetParam().scene, {.threads = 2, .domains = 9, .halo = halo}, kEnd);
+        expect_equal(thin, serial);
+        retries += thin.counts.window_retries;
+    }
+    EXPECT_GT(retries, 0U);
+}
+
+std::string name_of(const testing::TestParamInfo<NamedScene>& param) {
+    std::string name = param.param.name;
+    std::ranges::replace(name, ' ', '_');
+    return name;
+}
+INSTANTIATE_TEST_SUITE_P(Uneven, Domains, testing::ValuesIn(uneven_scenes()), name_of);
+
+TEST(DomainsOfAGas, RetryRarely) {
+    const Scene scene = gas(37, {.count = 10000, .packing = 0.5});
+    World world(scene, {.threads = 2, .domains = 4});
+    world.advance_to(2);
+    const Counts early = world.counts();
+    world.advance_to(6);
+    const Counts late = world.counts();
+    ASSERT_GT(late.windows - early.windows, 40U);
+    EXPECT_LT(double(late.window_retries - early.window_retries),
+              0.05 * double(late.windows - early.windows));
+}
+
+TEST(DomainsOfAGas, AListenerMayComeAndGo) {
+    const Scene scene = gas(38, {.count = 2000, .packing = 0.4});
+    const auto listened = [&scene](int domains) {
+        World world(scene, {.threads = 2, .domains = domains});
+        std::vector<std::pair<double, std::uint32_t>> heard;
+        for (int k = 1; k <= 20; ++k) {
+            if (k % 3 == 0)
+                world.on_collision([&heard](const Collision& c) { heard.emplace_back(c.time, c.i); });
+            else if (k % 3 == 1)
+                world.on_collision({});
+            world.advance_to(0.13 * k);
+        }
+        return std::tuple(heard, world.state_hash(), world.counts().ball_collisions, world.virial());
+    };
+    EXPECT_TRUE(listened(1) == listened(5));
+}
+
+}  // namespace
+}  // namespace carom::test
