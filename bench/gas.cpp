@@ -27,10 +27,11 @@ Scene scene_of(const plain::Gas& gas) {
     return scene;
 }
 
-void measure(double count, double packing, double seconds, int threads) {
+void measure(double count, double packing, double seconds, int threads, int domains) {
     using Clock = std::chrono::steady_clock;
     WorldOptions options;
     options.threads = threads;
+    options.domains = domains;
     World world(scene_of(plain::make_gas(count, packing)), options);
     const auto balls = static_cast<double>(world.ball_count());
     // One collision a ball, and at least 20,000 collisions, between two looks at the clock.
@@ -46,28 +47,33 @@ void measure(double count, double packing, double seconds, int threads) {
         elapsed = std::chrono::duration<double>(Clock::now() - start).count();
     } while (elapsed < seconds);
 
-    const auto collisions = static_cast<double>(world.counts().ball_collisions - counts_0.ball_collisions);
+    const Counts counts_1 = world.counts();
+    const auto collisions = static_cast<double>(counts_1.ball_collisions - counts_0.ball_collisions);
     const double kinetic = energy / (balls - 1) * balls;  // N kT: the momentum is fixed at zero
     std::printf(
         "discs=%.0f packing=%.2f collisions_per_second=%.4g events=%.2f Z=%.4f energy_change=%.1e "
-        "threads=%d\n",
+        "threads=%d copied=%.1f%% windows=%.2f retried=%.1f%%\n",
         balls, packing, collisions / elapsed,
-        static_cast<double>(world.counts().events - counts_0.events) / collisions,
+        static_cast<double>(counts_1.events - counts_0.events) / collisions,
         1 + (world.virial() - virial_0) / (2 * kinetic * (world.time() - time_0)),
-        world.energy() / energy - 1, world.threads());
+        world.energy() / energy - 1, world.threads(),
+        100 * static_cast<double>(counts_1.copied_collisions - counts_0.copied_collisions) / collisions,
+        collisions / std::max(1.0, static_cast<double>(counts_1.windows - counts_0.windows)),
+        100 * static_cast<double>(counts_1.window_retries - counts_0.window_retries) /
+            std::max(1.0, static_cast<double>(counts_1.windows - counts_0.windows)));
 }
 
 }  // namespace
 }  // namespace carom::bench
 
 int main(int argc, char** argv) {
-    if (argc < 3 || argc > 5) {
-        std::fputs("usage: carom_gas COUNT PACKING [SECONDS [THREADS]]\n", stderr);
+    if (argc < 3 || argc > 6) {
+        std::fputs("usage: carom_gas COUNT PACKING [SECONDS [THREADS [DOMAINS]]]\n", stderr);
         return 2;
     }
     try {
         carom::bench::measure(std::atof(argv[1]), std::atof(argv[2]), argc > 3 ? std::atof(argv[3]) : 3,
-                              argc > 4 ? std::atoi(argv[4]) : 0);
+                              argc > 4 ? std::atoi(argv[4]) : 0, argc > 5 ? std::atoi(argv[5]) : 0);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "carom_gas: %s\n", error.what());
         return 1;

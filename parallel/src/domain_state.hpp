@@ -16,6 +16,14 @@ struct Origin {
     friend auto operator<=>(const Origin&, const Origin&) = default;
 };
 
+/// A ball on its way to a domain that owns it now, or simulates a copy of it.
+struct BallMessage {
+    BallRecord record;
+    BallExtra extra;
+    Origin origin;
+    std::int32_t depth = 0;  ///< cells beyond the receiver's own, 0 inside
+};
+
 /// A domain's copy of a foreign ball, after the window.
 struct CopyOutcome {
     Origin origin;

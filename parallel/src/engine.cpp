@@ -16,11 +16,11 @@ int choose_domains(const Bodies& bodies, const Executor& executor, int wanted) {
     if (!bodies.large.empty()) return 1;  // a large ball's surroundings may be the whole plane
     if (wanted > 0) return wanted;
     const double balls = bodies.moving;
-    const double by_cache = balls / kBallsOfDomain;
-    if (executor.threads() == 1) return by_cache < 4 ? 1 : static_cast<int>(by_cache);
-    if (balls < kFewestOfThread * 2) return 1;
-    const double by_threads = std::min<double>(2 * executor.threads(), balls / kFewestOfThread);
-    return static_cast<int>(std::max(by_cache, by_threads));
+    const double by_cache = std::floor(balls / kBallsOfDomain);
+    const double by_threads = std::min<double>(executor.threads(), std::floor(balls / kFewestOfThread));
+    if (by_threads < 2) return by_cache < 4 ? 1 : static_cast<int>(by_cache);
+    // A whole number of rounds, so that no thread waits for the last domain.
+    return static_cast<int>(by_threads * std::max(1.0, std::round(by_cache / by_threads)));
 }
 
 /// All balls in one loop.

@@ -21,8 +21,7 @@ void EventLoop::clear(const Region& region, const Time& now) {
     events_at_once_ = 0;
     events = collisions_of_all = 0;
     const auto empty = [](auto&... tables) { (tables.clear(), ...); };
-    empty(ids_, anchors_, next_, crossings_, asleep_, owned_, frames_, ends_, radius_, periods_, histories_,
-          acceleration_, last_collision_, large_, notes, overwritten, last_overwritten, visits,
+    empty(records_, sides_, radius_, acceleration_, last_collision_, large_, notes, overwritten, visits,
           visits_of_copies);
     if (!keeps_window) return;
     touched.assign(static_cast<std::size_t>(region.mark_count()), 0);
@@ -39,45 +38,38 @@ void EventLoop::clear(const Region& region, const Time& now) {
             touched[static_cast<std::size_t>(y * (region.x.size() + 2) + x)] = 1;
 }
 
+void EventLoop::reserve(std::size_t balls) {
+    records_.reserve(balls);
+    sides_.reserve(balls);
+}
+
 void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end) {
     const auto i = size();
-    ids_.push_back(record.id);
-    Anchor& a = anchors_.emplace_back(record.anchor);
-    next_.push_back(record.next);
-    next_[i].local = kNowhere;
-    crossings_.push_back({record.crossing_time, record.crossing_dx, record.crossing_dy});
-    asleep_.push_back(0);
-    owned_.push_back(is_owned ? 1 : 0);
-    frames_.push_back(region_.frame_of(a.cell));
-    ends_.push_back(clock_.since_epoch(end, epoch_));
+    BallRecord& r = records_.emplace_back(record);
+    r.next.local = kNowhere;
+    Side& side = sides_.emplace_back();
+    side.owned = is_owned ? 1 : 0;
+    side.frame = region_.frame_of(r.anchor.cell);
+    side.end = clock_.since_epoch(end, epoch_);
     if (!bodies_.radius.is_one()) radius_.push_back(bodies_.radius.of(record.id));
-    periods_.push_back(record.periods);
-    histories_.push_back(0);
     if (bodies_.accelerates_each()) acceleration_.push_back(extra->acceleration);
     if (bodies_.physics.contact_time > 0) last_collision_.push_back(extra->last_collision);
-    if (keeps_window) last_overwritten.push_back(kNowhere);
-    a.place = place_of(i, a.cell);
-    if (std::ranges::binary_search(bodies_.large, record.id))
+    r.anchor.place = place_of(i, r.anchor.cell);
+    if (!bodies_.large.empty() && std::ranges::binary_search(bodies_.large, record.id))
         large_.push_back(i);
     else
-        cells_.insert(a.place, i);
+        cells_.insert(r.anchor.place, i);
 }
 
 void EventLoop::start() {
     queue_.reset(size());
-    std::ranges::fill(asleep_, 0);
     for (std::uint32_t i = 0; i < size(); ++i) {
-        const double key = std::min(clock_.since_epoch(next_[i].time, epoch_), crossings_[i].time);
-        queue_.put(i, key <= ends_[i] ? key : std::numeric_limits<double>::infinity());
+        sides_[i].asleep = 0;
+        const double key =
+            std::min(clock_.since_epoch(records_[i].next.time, epoch_), records_[i].crossing_time);
+        queue_.put(i, key <= sides_[i].end ? key : std::numeric_limits<double>::infinity());
     }
     queue_.rebuild();
-}
-
-BallRecord EventLoop::record(std::uint32_t i) const {
-    BallRecord r{anchors_[i],      next_[i],         crossings_[i].time, ids_[i],
-                 crossings_[i].dx, crossings_[i].dy, periods_[i]};
-    r.next.local = kNowhere;
-    return r;
 }
 
 BallExtra EventLoop::extra(std::uint32_t i) const {
@@ -88,7 +80,7 @@ BallExtra EventLoop::extra(std::uint32_t i) const {
 }
 
 BallState EventLoop::state(std::uint32_t i, const Time& t) const {
-    return state_at(bodies_, anchors_[i], periods_[i],
+    return state_at(bodies_, records_[i].anchor, records_[i].periods,
                     acceleration_.empty() ? Vec2(Vec2::Zero()) : acceleration_[i], t);
 }
 
@@ -112,11 +104,11 @@ void EventLoopOf<A>::renew_field(const Time& t) {
         for (std::uint32_t i = 0; i < size(); ++i) {
             advance(i, t);
             settle(i);
-            events += owned_[i];
-            acceleration_[i] = bodies_.physics.gravity + bodies_.own_acceleration_of(ids_[i]) +
-                               field_at(bodies_.attractors, {anchors_[i].x, anchors_[i].y});
+            events += sides_[i].owned;
+            acceleration_[i] = bodies_.physics.gravity + bodies_.own_acceleration_of(records_[i].id) +
+                               field_at(bodies_.attractors, {records_[i].anchor.x, records_[i].anchor.y});
             if (!std::isfinite(length_squared(acceleration_[i])))
-                throw std::runtime_error("balls[" + std::to_string(ids_[i]) +
+                throw std::runtime_error("balls[" + std::to_string(records_[i].id) +
                                          "]: the attractors' pull on it is too large for a number");
         }
     }
@@ -126,9 +118,9 @@ template <Acceleration A>
 void EventLoopOf<A>::audit(std::vector<Violation>& found) const {
     for (std::uint32_t i = 0; i < size(); ++i) {
         const auto report_fault = [this, &found, i](const std::string& what) {
-            found.push_back({"balls[" + std::to_string(ids_[i]) + "]: " + what});
+            found.push_back({"balls[" + std::to_string(records_[i].id) + "]: " + what});
         };
-        const Anchor& a = anchors_[i];
+        const Anchor& a = records_[i].anchor;
         if (!std::isfinite(a.x + a.y + a.vx + a.vy)) report_fault("state is not finite");
         if (queue_.key(i) != key_of(i)) report_fault("the queue holds another time than its next event's");
         if (queue_.key(i) < now_) report_fault("next event lies in the past");
@@ -137,8 +129,8 @@ void EventLoopOf<A>::audit(std::vector<Violation>& found) const {
         if (listed == is_large(i) || a.place != place_of(i, a.cell))
             report_fault("is not listed in its cell");
         const NextEvent best = search(i);
-        const bool partner_knows = best.local != kNowhere && next_[best.local].time <= best.time;
-        if (best.time < next_[i].time && !partner_knows)
+        const bool partner_knows = best.local != kNowhere && records_[best.local].next.time <= best.time;
+        if (best.time < records_[i].next.time && !partner_knows)
             report_fault("has an event before the one in the queue");
     }
 }

@@ -19,6 +19,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -66,6 +67,8 @@ class EventLoop {
     // ---- Filling: clear(), add() for every ball, then start() or predict_all().
     /// Empties the loop for a region. `now` is the time up to which the balls have been advanced.
     void clear(const Region& region, const Time& now);
+    /// Makes room for so many balls.
+    void reserve(std::size_t balls);
     /// Adds a ball whose cell lies in the region, `crossing_time` since the epoch of `now`. A copy is
     /// simulated until `end`.
     void add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end = kNever);
@@ -83,17 +86,19 @@ class EventLoop {
     virtual void renew_field(const Time& t) = 0;
 
     // ---- Reading.
-    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(anchors_.size()); }
-    [[nodiscard]] std::uint32_t id(std::uint32_t i) const { return ids_[i]; }
-    [[nodiscard]] BallRecord record(std::uint32_t i) const;
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(records_.size()); }
+    [[nodiscard]] std::uint32_t id(std::uint32_t i) const { return records_[i].id; }
+    [[nodiscard]] std::span<const BallRecord> records() const { return records_; }
+    /// The anchor of ball i that was overwritten last: index into `overwritten`.
+    [[nodiscard]] std::uint32_t last_overwritten(std::uint32_t i) const { return sides_[i].last_overwritten; }
     [[nodiscard]] BallExtra extra(std::uint32_t i) const;
     /// Ball i's state at `t` >= its anchor.
     [[nodiscard]] BallState state(std::uint32_t i, const Time& t) const;
     /// A mark of all that ball i has done since clear().
-    [[nodiscard]] std::uint64_t history(std::uint32_t i) const { return histories_[i]; }
+    [[nodiscard]] std::uint64_t history(std::uint32_t i) const { return sides_[i].history; }
     /// Whether a copy was given up before `end`.
     [[nodiscard]] bool is_lost(std::uint32_t i, const Time& end) const {
-        return ends_[i] < bodies_.physics.clock.since_epoch(end, epoch_);
+        return sides_[i].end < bodies_.physics.clock.since_epoch(end, epoch_);
     }
     /// Whether a ball of its own went where the loop cannot follow.
     [[nodiscard]] bool has_failed() const { return failed_; }
@@ -104,17 +109,16 @@ class EventLoop {
     bool keeps_notes = false;   ///< whether notes are kept rather than handed to `on_note`
     bool keeps_window = false;  ///< whether overwritten anchors and visits are kept
     std::function<void(const CollisionNote&)> on_note;
-    std::vector<CollisionNote> notes;             ///< of collisions that count here, in order
-    std::vector<OverwrittenAnchor> overwritten;   ///< of owned balls
-    std::vector<std::uint32_t> last_overwritten;  ///< one a ball: index into `overwritten`
-    std::vector<Visit> visits;                    ///< of owned balls
+    std::vector<CollisionNote> notes;            ///< of collisions that count here, in order
+    std::vector<OverwrittenAnchor> overwritten;  ///< of owned balls
+    std::vector<Visit> visits;                   ///< of owned balls
     std::vector<Visit> visits_of_copies;
     std::vector<std::uint8_t>
         touched;  ///< one a mark of the region: whether a ball of its own was in the cell or beside
     std::uint64_t events = 0;             ///< of owned balls: collisions, cell crossings, stale predictions
     std::uint64_t collisions_of_all = 0;  ///< copies' included, for the price of the halo
 
-    [[nodiscard]] bool is_owned(std::uint32_t i) const { return owned_[i] != 0; }
+    [[nodiscard]] bool is_owned(std::uint32_t i) const { return sides_[i].owned != 0; }
 
  protected:
     void touch(const CellCoordinates& cell);
@@ -123,7 +127,7 @@ class EventLoop {
     }
     /// The place of a cell given in ball i's frame; -1 outside the region.
     [[nodiscard]] std::int32_t place_of(std::uint32_t i, const CellCoordinates& c) const {
-        return region_.place({c.x + frames_[i].x, c.y + frames_[i].y});
+        return region_.place({c.x + sides_[i].frame.x, c.y + sides_[i].frame.y});
     }
 
     const Bodies& bodies_;
@@ -133,17 +137,18 @@ class EventLoop {
     EventQueue queue_;
 
     // One a ball, in the order of add().
-    std::vector<std::uint32_t> ids_;
-    std::vector<Anchor> anchors_;
-    std::vector<NextEvent> next_;
-    std::vector<Crossing> crossings_;
-    std::vector<std::uint8_t> asleep_;  // whose next event is its partner's as well, and in the queue there
-    std::vector<std::uint8_t> owned_;
-    std::vector<CellCoordinates> frames_;  // from the anchor's frame to the region's
-    std::vector<double> ends_;             // when a copy is given up, since the start of the epoch
-    std::vector<double> radius_;           // only where they differ
-    std::vector<Periods> periods_;
-    std::vector<std::uint64_t> histories_;
+    struct Side {
+        std::uint64_t history = 0;
+        double end =
+            std::numeric_limits<double>::infinity();  // when a copy is given up, since the epoch's start
+        CellCoordinates frame;                        // from the anchor's frame to the region's
+        std::uint32_t last_overwritten = kNowhere;
+        std::uint8_t owned = 1;
+        std::uint8_t asleep = 0;  // its next event is its partner's as well, and in the queue there
+    };
+    std::vector<BallRecord> records_;
+    std::vector<Side> sides_;
+    std::vector<double> radius_;        // only where they differ
     std::vector<Vec2> acceleration_;    // only where it differs from ball to ball
     std::vector<Time> last_collision_;  // only where the contact time is not 0
     std::vector<std::uint32_t> large_;

@@ -30,7 +30,7 @@ void EventLoopOf<A>::advance_to(const Time& end, bool inclusive) {
 template <Acceleration A>
 void EventLoopOf<A>::run_until(double end, bool inclusive) {
     while (!failed_) {
-        std::uint32_t i = queue_.first(ids_);
+        std::uint32_t i = queue_.first([this](std::uint32_t b) { return records_[b].id; });
         const double key = queue_.key(i);
         if (!(key < end || (inclusive && key == end))) return;
         if (key > now_) {
@@ -41,8 +41,9 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
             refuse_wedged(i);
         }
         if (!simultaneous_ && queue_.may_be_tied()) i = first_of_ties();
-        events += owned_[i];
-        if (asleep_[i] || crossings_[i].time <= clock_.since_epoch(next_[i].time, epoch_))
+        events += sides_[i].owned;
+        if (sides_[i].asleep ||
+            records_[i].crossing_time <= clock_.since_epoch(records_[i].next.time, epoch_))
             cross(i);
         else
             collide_first(i);
@@ -56,15 +57,15 @@ std::uint32_t EventLoopOf<A>::first_of_ties() {
     tied_.clear();
     queue_.for_each_first([&](std::uint32_t i) { tied_.push_back(i); });
     const auto is_one_pair = [this] {
-        const NextEvent& a = next_[tied_[0]];
-        const NextEvent& b = next_[tied_[1]];
-        return a.partner == ids_[tied_[1]] && b.partner == ids_[tied_[0]] && a.time == b.time;
+        const NextEvent& a = records_[tied_[0]].next;
+        const NextEvent& b = records_[tied_[1]].next;
+        return a.partner == records_[tied_[1]].id && b.partner == records_[tied_[0]].id && a.time == b.time;
     };
     if (tied_.size() > 2 || (tied_.size() == 2 && !is_one_pair())) {
         simultaneous_ = true;
         for (const std::uint32_t i : tied_) tell_lower(i);
     }
-    return queue_.first(ids_);
+    return queue_.first([this](std::uint32_t b) { return records_[b].id; });
 }
 
 /// Hands the notes on, in batches, where they are not kept.
@@ -81,8 +82,8 @@ void EventLoopOf<A>::pass_on_notes() {
 template <Acceleration A>
 void EventLoopOf<A>::refuse_wedged(std::uint32_t i) const {
     std::ostringstream what;
-    what << "balls[" << ids_[i] << "]: is wedged: more than " << most_events_at_once() << " events at time "
-         << clock_.to_seconds(time_now())
+    what << "balls[" << records_[i].id << "]: is wedged: more than " << most_events_at_once()
+         << " events at time " << clock_.to_seconds(time_now())
          << " (it has no room to move, or loses energy without a contact_time)";
     throw std::runtime_error(what.str());
 }
@@ -93,8 +94,8 @@ void EventLoopOf<A>::start_next_epoch(std::int64_t epoch) {
     epoch_ = epoch;
     now_ = 0;
     for (std::uint32_t i = 0; i < size(); ++i) {
-        crossings_[i].time -= passed;
-        ends_[i] -= passed;
+        records_[i].crossing_time -= passed;
+        sides_[i].end -= passed;
         queue_.put(i, key_of(i));
     }
     queue_.rebuild();
@@ -102,13 +103,13 @@ void EventLoopOf<A>::start_next_epoch(std::int64_t epoch) {
 
 template <Acceleration A>
 void EventLoopOf<A>::cross(std::uint32_t i) {
-    const Anchor& a = anchors_[i];
-    const Crossing crossing = crossings_[i];
+    const Anchor& a = records_[i].anchor;
+    const Crossing crossing{records_[i].crossing_time, records_[i].crossing_dx, records_[i].crossing_dy};
     relist(i, {a.cell.x + crossing.dx, a.cell.y + crossing.dy});
     if (std::max(std::abs(a.cell.x), std::abs(a.cell.y)) >= GridAxis::kFarthest)
-        throw std::runtime_error("balls[" + std::to_string(ids_[i]) +
+        throw std::runtime_error("balls[" + std::to_string(records_[i].id) +
                                  "]: flies more than a thousand million cells without an event");
-    NextEvent best = next_[i];
+    NextEvent best = records_[i].next;
     // The row of cells that comes into view.
     const std::int32_t reach_x = cell_reach(bodies_.grid.x, i);
     const std::int32_t reach_y = cell_reach(bodies_.grid.y, i);
@@ -129,7 +130,7 @@ void EventLoopOf<A>::cross(std::uint32_t i) {
 
 template <Acceleration A>
 void EventLoopOf<A>::collide_first(std::uint32_t i) {
-    const NextEvent event = next_[i];
+    const NextEvent event = records_[i].next;
     if (event.partner >= bodies_.count || bodies_.fixes(event.partner)) {
         collide_obstacle(i, event);
         return;
@@ -139,11 +140,11 @@ void EventLoopOf<A>::collide_first(std::uint32_t i) {
         bool is_inside = true;
         j = find_beside(i, event.partner, is_inside);
         if (j == kNowhere && !is_inside) return lose(i);
-        next_[i].local = j;
+        records_[i].next.local = j;
     }
-    if (j == kNowhere || anchors_[j].stamp != event.stamp)
+    if (j == kNowhere || records_[j].anchor.stamp != event.stamp)
         expect(i, search(i));  // the partner has gone another way
-    else if (now_ > ends_[j])
+    else if (now_ > sides_[j].end)
         lose(i);  // perhaps it has, perhaps not
     else
         collide_pair(i, j, {event.image_x, event.image_y}, event.time);
@@ -153,32 +154,30 @@ void EventLoopOf<A>::collide_first(std::uint32_t i) {
 /// of those cells are in the region.
 template <Acceleration A>
 std::uint32_t EventLoopOf<A>::find_beside(std::uint32_t i, std::uint32_t id, bool& is_inside) const {
-    const CellCoordinates c = anchors_[i].cell;
+    const CellCoordinates c = records_[i].anchor.cell;
     std::uint32_t found = kNowhere;
-    for (std::int32_t y = c.y - 1; y <= c.y + 1; ++y) {
-        for (std::int32_t x = c.x - 1; x <= c.x + 1; ++x) {
-            const std::int32_t place = place_of(i, {x, y});
-            is_inside = is_inside && place >= 0;
-            if (place >= 0)
-                cells_.for_each(place, [&](std::uint32_t j) {
-                    if (ids_[j] == id) found = j;
-                });
-        }
-    }
+    int cells = 0;
+    for_each_place(i, {c.x - 1, c.y - 1}, {c.x + 1, c.y + 1}, [&](std::int32_t place, CellCoordinates) {
+        ++cells;
+        cells_.for_each(place, [&](std::uint32_t j) {
+            if (records_[j].id == id) found = j;
+        });
+    });
+    is_inside = cells == 9;
     return found;
 }
 
 /// Anchors a ball at `t`, wrapped into the box. Gives the periods that the wrapping took away.
 template <Acceleration A>
 auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
-    Anchor& a = anchors_[i];
+    Anchor& a = records_[i].anchor;
     const double since = clock_.difference(t, a.time);
     const Motion<double> m = motion_of(i);
     const Vec2 x = position_at(m, since);
     const Vec2 v = velocity_at(m, since);
     if (keeps_window && is_owned(i)) {
-        overwritten.push_back({a, periods_[i], last_overwritten[i]});
-        last_overwritten[i] = static_cast<std::uint32_t>(overwritten.size() - 1);
+        overwritten.push_back({a, records_[i].periods, sides_[i].last_overwritten});
+        sides_[i].last_overwritten = static_cast<std::uint32_t>(overwritten.size() - 1);
     }
     const Grid& grid = bodies_.grid;
     Image wrapped;
@@ -188,17 +187,17 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     a.vx = v.x();
     a.vy = v.y();
     a.time = t;
-    periods_[i].x += wrapped.x;
-    periods_[i].y += wrapped.y;
-    frames_[i].x += wrapped.x * grid.x.count();
-    frames_[i].y += wrapped.y * grid.y.count();
+    records_[i].periods.x += wrapped.x;
+    records_[i].periods.y += wrapped.y;
+    sides_[i].frame.x += wrapped.x * grid.x.count();
+    sides_[i].frame.y += wrapped.y * grid.y.count();
     return wrapped;
 }
 
 /// After an event: finds the ball's cell anew and marks every prediction about the ball as stale.
 template <Acceleration A>
 void EventLoopOf<A>::settle(std::uint32_t i) {
-    Anchor& a = anchors_[i];
+    Anchor& a = records_[i].anchor;
     ++a.stamp;
     relist(i, bodies_.grid.coordinates({a.x, a.y}));
 }
@@ -206,7 +205,7 @@ void EventLoopOf<A>::settle(std::uint32_t i) {
 /// Puts a ball into another cell's list; a large ball is in none.
 template <Acceleration A>
 void EventLoopOf<A>::relist(std::uint32_t i, CellCoordinates cell) {
-    Anchor& a = anchors_[i];
+    Anchor& a = records_[i].anchor;
     const std::int32_t place = place_of(i, cell);
     if (place < 0) return lose(i);
     a.cell = cell;
@@ -217,7 +216,7 @@ void EventLoopOf<A>::relist(std::uint32_t i, CellCoordinates cell) {
     }
     a.place = place;
     if (!keeps_window) return;
-    const CellCoordinates here{cell.x + frames_[i].x, cell.y + frames_[i].y};
+    const CellCoordinates here{cell.x + sides_[i].frame.x, cell.y + sides_[i].frame.y};
     if (is_owned(i)) {
         visits.push_back({i, here});
         if (region_.depth(here) > 0) touch(here);
@@ -230,8 +229,9 @@ void EventLoopOf<A>::relist(std::uint32_t i, CellCoordinates cell) {
 /// from the smaller id.
 template <Acceleration A>
 Vec2 EventLoopOf<A>::centres_offset(std::uint32_t i, std::uint32_t j, Image image) const {
-    if (ids_[j] < ids_[i]) return -centres_offset(j, i, -image);
-    return Vec2(anchors_[i].x, anchors_[i].y) - Vec2(anchors_[j].x, anchors_[j].y) - offset_of(image);
+    if (records_[j].id < records_[i].id) return -centres_offset(j, i, -image);
+    return Vec2(records_[i].anchor.x, records_[i].anchor.y) -
+           Vec2(records_[j].anchor.x, records_[j].anchor.y) - offset_of(image);
 }
 
 /// The TC model: a body that has collided a moment ago loses nothing. `j` == i where the other body has no
@@ -246,38 +246,40 @@ double EventLoopOf<A>::restitution_at(double restitution, std::uint32_t i, std::
 
 template <Acceleration A>
 void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image, const Time& t) {
-    if (ids_[j] < ids_[i]) {
+    if (records_[j].id < records_[i].id) {
         std::swap(i, j);
         image = -image;
     }
-    remember(i, t, ids_[j]);
-    remember(j, t, ids_[i]);
+    remember(i, t, records_[j].id);
+    remember(j, t, records_[i].id);
     const Image wrapped_i = advance(i, t);
     const Image wrapped_j = advance(j, t);
     image = {image.x - wrapped_i.x + wrapped_j.x, image.y - wrapped_i.y + wrapped_j.y};
-    Anchor& a = anchors_[i];
-    Anchor& b = anchors_[j];
+    Anchor& a = records_[i].anchor;
+    Anchor& b = records_[j].anchor;
     const Vec2 va = {a.vx, a.vy};
     const Vec2 vb = {b.vx, b.vy};
     const Vec2 r = centres_offset(i, j, image);
-    const double restitution =
-        restitution_at(pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(ids_[i]),
-                                        bodies_.restitution.of(ids_[j])),
-                       i, j, t);
+    const double restitution = restitution_at(
+        pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(records_[i].id),
+                         bodies_.restitution.of(records_[j].id)),
+        i, j, t);
     double pressure = 0;  // -f'' / 2 of the squared distance f: positive where the pair is pressed together
     if constexpr (A == Acceleration::kPerBall)
         pressure = -(length_squared<double>(va - vb) + dot<double>(r, acceleration_[i] - acceleration_[j]));
     const double separation = parting_speed(pressure, r);
     double impulse = 0;  // along the unit normal
-    const PairVelocities<double> after = collide(va, vb, r, bodies_.mass.of(ids_[i]),
-                                                 bodies_.mass.of(ids_[j]), restitution, separation, &impulse);
+    const PairVelocities<double> after =
+        collide(va, vb, r, bodies_.mass.of(records_[i].id), bodies_.mass.of(records_[j].id), restitution,
+                separation, &impulse);
     a.vx = after.a.x();
     a.vy = after.a.y();
     b.vx = after.b.x();
     b.vy = after.b.y();
     const double distance = std::sqrt(length_squared(r));
     ++collisions_of_all;
-    if (is_owned(i)) note(t, CollisionKind::kBall, i, ids_[j], r / distance, impulse, impulse * distance);
+    if (is_owned(i))
+        note(t, CollisionKind::kBall, i, records_[j].id, r / distance, impulse, impulse * distance);
     if (bodies_.physics.contact_time > 0) last_collision_[i] = last_collision_[j] = t;
     settle(i);
     settle(j);
@@ -292,14 +294,14 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     remember(i, event.time, event.partner);
     const Image wrapped = advance(i, event.time);
     const Image image = {event.image_x - wrapped.x, event.image_y - wrapped.y};
-    Anchor& a = anchors_[i];
+    Anchor& a = records_[i].anchor;
     const bool is_ball = event.partner < bodies_.count;
     Vec2 normal;  // from the obstacle to the ball, of any length
     double restitution = bodies_.physics.domain.restitution;
     if (is_ball) {
         const Vec2 centre = {a.x, a.y};
         const Vec2& fixed = bodies_.fixed[event.partner];
-        if (event.partner < ids_[i])
+        if (event.partner < records_[i].id)
             normal = -(fixed - centre - offset_of(-image));
         else
             normal = centre - fixed - offset_of(image);
@@ -314,8 +316,8 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
         normal = Vec2::Zero();
         normal[side.axis] = side.upper ? -1 : 1;
     }
-    restitution =
-        pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(ids_[i]), restitution);
+    restitution = pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(records_[i].id),
+                                   restitution);
     const double lasting = restitution_at(restitution, i, i, event.time);
     const Vec2 before = {a.vx, a.vy};
     const double length = std::sqrt(length_squared(normal));
@@ -332,7 +334,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     if (factor != 1) after *= factor;
     a.vx = after.x();
     a.vy = after.y();
-    const double impulse = bodies_.mass.of(ids_[i]) * dot<double>(after - before, normal) / length;
+    const double impulse = bodies_.mass.of(records_[i].id) * dot<double>(after - before, normal) / length;
     ++collisions_of_all;
     if (is_owned(i))
         note(event.time, is_ball ? CollisionKind::kBall : CollisionKind::kWall, i, event.partner,
@@ -347,9 +349,9 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
 template <Acceleration A>
 void EventLoopOf<A>::remember(std::uint32_t i, const Time& t, std::uint32_t partner) {
     if (!keeps_window) return;
-    std::uint64_t h = histories_[i] ^ std::bit_cast<std::uint64_t>(t.offset);
+    std::uint64_t h = sides_[i].history ^ std::bit_cast<std::uint64_t>(t.offset);
     h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL + partner;
-    histories_[i] = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL;
+    sides_[i].history = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL;
 }
 
 template <Acceleration A>
@@ -357,17 +359,17 @@ void EventLoopOf<A>::note(const Time& t, CollisionKind kind, std::uint32_t i, st
                           const Vec2& normal, double impulse, double virial) {
     CollisionNote& n = notes.emplace_back();
     n.time = t;
-    n.lower = ids_[i];
+    n.lower = records_[i].id;
     n.higher = partner;
     n.is_wall = kind == CollisionKind::kWall;
     n.virial = virial;
     if (listens) {
-        const Vec2 point = Vec2(anchors_[i].x, anchors_[i].y) - radius_of(i) * normal;
+        const Vec2 point = Vec2(records_[i].anchor.x, records_[i].anchor.y) - radius_of(i) * normal;
         std::int32_t ignored = 0;
         n.collision = {
             clock_.to_seconds(t),
             kind,
-            ids_[i],
+            records_[i].id,
             kind == CollisionKind::kWall ? partner - bodies_.count : partner,
             {bodies_.grid.x.wrapped(point.x(), ignored), bodies_.grid.y.wrapped(point.y(), ignored)},
             normal,

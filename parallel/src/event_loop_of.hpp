@@ -45,7 +45,7 @@ class EventLoopOf final : public EventLoop {
         return acceleration_[i];
     }
     [[nodiscard]] Motion<double> motion_of(std::uint32_t i) const {
-        const Anchor& a = anchors_[i];
+        const Anchor& a = records_[i].anchor;
         return {{a.x, a.y}, {a.vx, a.vy}, acceleration_of(i)};
     }
     [[nodiscard]] Vec2 offset_of(const Image& image) const {
@@ -114,6 +114,8 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] Present present(std::uint32_t i) const;
     void bound_times(std::uint32_t i, const Present& a, Candidates& found) const;
     void consider_all(std::uint32_t i, const Present& place, Candidates& found, NextEvent& best) const;
+    template <class F>
+    void for_each_place(std::uint32_t i, CellCoordinates first, CellCoordinates last, F&& f) const;
     void scan_obstacles(std::uint32_t i, NextEvent& best) const;
     [[nodiscard]] NextEvent search(std::uint32_t i) const;
     void expect(std::uint32_t i, const NextEvent& event);
@@ -140,10 +142,10 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] Vec2 centres_offset(std::uint32_t i, std::uint32_t j, Image image) const;
     void schedule(std::uint32_t i) { queue_.set(i, key_of(i)); }
     [[nodiscard]] double key_of(std::uint32_t i) const {
-        const double key = asleep_[i]
-                               ? crossings_[i].time
-                               : std::min(clock_.since_epoch(next_[i].time, epoch_), crossings_[i].time);
-        return key <= ends_[i] ? key : std::numeric_limits<double>::infinity();
+        const double key = sides_[i].asleep ? records_[i].crossing_time
+                                            : std::min(clock_.since_epoch(records_[i].next.time, epoch_),
+                                                       records_[i].crossing_time);
+        return key <= sides_[i].end ? key : std::numeric_limits<double>::infinity();
     }
     [[nodiscard]] Time time_now() const { return clock_.after({epoch_, 0}, now_); }
     /// The speed at which a contact pressed together must part to stay open for the rest time; `line` is its

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstring>
 #include <tuple>
 #include <utility>
 
@@ -14,12 +15,12 @@ namespace carom {
 
 template <Acceleration A>
 Time EventLoopOf<A>::predict_pair(std::uint32_t i, std::uint32_t j, Image image) const {
-    if (ids_[j] < ids_[i]) {  // one order for a pair, whoever asks
+    if (records_[j].id < records_[i].id) {  // one order for a pair, whoever asks
         std::swap(i, j);
         image = -image;
     }
-    const Anchor& a = anchors_[i];
-    const Anchor& b = anchors_[j];
+    const Anchor& a = records_[i].anchor;
+    const Anchor& b = records_[j].anchor;
     double since_a = 0;
     double since_b = 0;
     const Time& reference = a.time < b.time ? b.time : a.time;
@@ -54,14 +55,14 @@ Time EventLoopOf<A>::predict_fixed(std::uint32_t i, std::uint32_t id, Image imag
     Vec2 r = m.position - bodies_.fixed[id] - offset_of(image);
     Vec2 v = m.velocity;
     Vec2 acceleration = m.acceleration;
-    if (id < ids_[i]) {
+    if (id < records_[i].id) {
         r = bodies_.fixed[id] - m.position - offset_of(-image);
         v = -v;
         acceleration = -acceleration;
     }
     const double t = A == Acceleration::kNone ? disc_time_of_impact<double>(r, v, sum)
                                               : disc_time_of_impact<double>(r, v, acceleration, sum);
-    return clock_.after(anchors_[i].time, t);
+    return clock_.after(records_[i].anchor.time, t);
 }
 
 template <Acceleration A>
@@ -72,7 +73,7 @@ NextEvent EventLoopOf<A>::predict_obstacle(std::uint32_t i, std::uint32_t obstac
     centre.position -= offset_of(image);
     const Wall& wall = bodies_.walls[obstacle - bodies_.count];
     const WallHit<double> hit = wall_time_of_impact<double>(centre, radius_of(i), wall.from, wall.to);
-    return {clock_.after(anchors_[i].time, hit.time),
+    return {clock_.after(records_[i].anchor.time, hit.time),
             obstacle,
             static_cast<std::uint32_t>(hit.feature),
             image.x,
@@ -94,12 +95,13 @@ auto EventLoopOf<A>::gap_to_side(std::uint32_t i, Side side) const -> Gap {
 template <Acceleration A>
 NextEvent EventLoopOf<A>::predict_side(std::uint32_t i, std::uint32_t side) const {
     const Gap gap = gap_to_side(i, side_of(side));
-    return {clock_.after(anchors_[i].time, side_time_of_impact(gap.distance, gap.speed, gap.acceleration)),
-            bodies_.first_side() + side,
-            0,
-            0,
-            0,
-            kNowhere};
+    return {
+        clock_.after(records_[i].anchor.time, side_time_of_impact(gap.distance, gap.speed, gap.acceleration)),
+        bodies_.first_side() + side,
+        0,
+        0,
+        0,
+        kNowhere};
 }
 
 /// The total order of the events of one ball.
@@ -107,7 +109,7 @@ template <Acceleration A>
 bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint32_t i) const {
     if (a.time != b.time) return a.time < b.time;
     if (a.time == kNever) return false;
-    const auto key = [id = ids_[i]](const NextEvent& e) {
+    const auto key = [id = records_[i].id](const NextEvent& e) {
         const int sign = e.partner < id ? -1 : 1;  // the image as seen from the smaller id
         return std::tuple(std::min(id, e.partner), std::max(id, e.partner), sign * e.image_x,
                           sign * e.image_y);
@@ -119,7 +121,8 @@ bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint3
 /// Predicts ball i against ball j and keeps the better event.
 template <Acceleration A>
 void EventLoopOf<A>::consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) const {
-    const NextEvent event{predict_pair(i, j, image), ids_[j], anchors_[j].stamp, image.x, image.y, j};
+    const NextEvent event{
+        predict_pair(i, j, image), records_[j].id, records_[j].anchor.stamp, image.x, image.y, j};
     if (precedes(event, best, i)) best = event;
 }
 
@@ -127,7 +130,7 @@ void EventLoopOf<A>::consider(std::uint32_t i, std::uint32_t j, Image image, Nex
 template <Acceleration A>
 void EventLoopOf<A>::consider_listed(std::uint32_t i, std::uint32_t j, CellCoordinates cell,
                                      NextEvent& best) const {
-    const Anchor& b = anchors_[j];
+    const Anchor& b = records_[j].anchor;
     Image image;
     if (b.cell != cell) {  // the same place, some turns of the fold or periods between the frames away
         const Grid& grid = bodies_.grid;
@@ -142,7 +145,7 @@ void EventLoopOf<A>::consider_listed(std::uint32_t i, std::uint32_t j, CellCoord
 /// Where ball i is now and how fast, in the frame of its anchor.
 template <Acceleration A>
 auto EventLoopOf<A>::present(std::uint32_t i) const -> Present {
-    const Anchor& a = anchors_[i];
+    const Anchor& a = records_[i].anchor;
     const double since =
         (now_ - a.time.offset) + clock_.epoch_length() * static_cast<double>(epoch_ - a.time.epoch);
     Present p{a.x + since * a.vx,
@@ -190,7 +193,7 @@ void EventLoopOf<A>::bound_times(std::uint32_t i, const Present& a, Candidates& 
     for (std::size_t first = 0; first < padded; first += kLanes) {
         const std::uint32_t* ids = &found.ids[first];
         for (std::size_t k = 0; k < kLanes; ++k) {
-            const Anchor& b = anchors_[ids[k]];
+            const Anchor& b = records_[ids[k]].anchor;
             bx[k] = b.x;
             by[k] = b.y;
             bvx[k] = b.vx;
@@ -274,6 +277,24 @@ void EventLoopOf<A>::consider_all(std::uint32_t i, const Present& place, Candida
     }
 }
 
+/// Calls f(place, cell) for the cells [first, last], given in ball i's frame, that lie in the region.
+template <Acceleration A>
+template <class F>
+void EventLoopOf<A>::for_each_place(std::uint32_t i, CellCoordinates first, CellCoordinates last,
+                                    F&& f) const {
+    const std::int32_t low = place_of(i, first);
+    const std::int32_t high = place_of(i, last);
+    const std::int32_t row = region_.x.size();
+    const bool is_plain = low >= 0 && high - low == (last.y - first.y) * row + (last.x - first.x);
+    for (std::int32_t y = first.y; y <= last.y; ++y) {
+        for (std::int32_t x = first.x; x <= last.x; ++x) {
+            const std::int32_t place =
+                is_plain ? low + (y - first.y) * row + (x - first.x) : place_of(i, {x, y});
+            if (place >= 0) f(place, CellCoordinates{x, y});
+        }
+    }
+}
+
 /// Ball i against all that are listed in a block of cells.
 template <Acceleration A>
 void EventLoopOf<A>::scan_cells(std::uint32_t i, CellCoordinates first, CellCoordinates last,
@@ -281,38 +302,34 @@ void EventLoopOf<A>::scan_cells(std::uint32_t i, CellCoordinates first, CellCoor
     const Present place = present(i);
     const bool filters = A != Acceleration::kPerBall && bodies_.filters &&
                          std::abs(place.x) + std::abs(place.y) + place.flight <= bodies_.farthest;
-    Candidates found;
-    for (std::int32_t y = first.y; y <= last.y; ++y) {
-        for (std::int32_t x = first.x; x <= last.x; ++x) {
-            const CellCoordinates cell{x, y};
-            const std::int32_t storage = place_of(i, cell);
-            if (storage < 0) continue;
-            if (!filters) {
-                cells_.for_each(storage, [&](std::uint32_t j) {
-                    if (j != i) consider_listed(i, j, cell, best);
-                });
-                continue;
-            }
-            if (found.cell_count == found.cells.size()) {
-                consider_all(i, place, found, best);
-                found.count = found.cell_count = 0;
-            }
-            found.cells[found.cell_count] = cell;
-            cells_.for_each_block(
-                storage, [&](std::span<const std::uint32_t, CellLists::kOverrun> block, std::size_t used) {
-                    if (found.count + used > kMostCandidates) {
-                        consider_all(i, place, found, best);
-                        found.count = 0;
-                    }
-                    for (std::size_t k = 0; k < CellLists::kOverrun; ++k) {
-                        found.ids[found.count + k] = block[k];
-                        found.from[found.count + k] = static_cast<std::uint8_t>(found.cell_count);
-                    }
-                    found.count += used;
-                });
-            ++found.cell_count;
-        }
+    if (!filters) {
+        for_each_place(i, first, last, [&](std::int32_t at, CellCoordinates cell) {
+            cells_.for_each(at, [&](std::uint32_t j) {
+                if (j != i) consider_listed(i, j, cell, best);
+            });
+        });
+        return;
     }
+    Candidates found;
+    for_each_place(i, first, last, [&](std::int32_t at, CellCoordinates cell) {
+        if (found.cell_count == found.cells.size()) {
+            consider_all(i, place, found, best);
+            found.count = found.cell_count = 0;
+        }
+        found.cells[found.cell_count] = cell;
+        cells_.for_each_block(at, [&](std::span<const std::uint32_t, CellLists::kOverrun> block,
+                                      std::size_t used) {
+            if (found.count + used > kMostCandidates) {
+                consider_all(i, place, found, best);
+                found.count = 0;
+            }
+            std::memcpy(&found.ids[found.count], block.data(), sizeof(std::uint32_t) * CellLists::kOverrun);
+            std::memset(&found.from[found.count], static_cast<int>(found.cell_count),
+                        CellLists::kOverrun + 2);
+            found.count += used;
+        });
+        ++found.cell_count;
+    });
     consider_all(i, place, found, best);
 }
 
@@ -322,8 +339,8 @@ void EventLoopOf<A>::consider_images(std::uint32_t i, std::uint32_t j, NextEvent
     if (j == i) return;
     const double sum = radius_of(i) + radius_of(j);
     const Grid& grid = bodies_.grid;
-    const CellCoordinates& a = anchors_[i].cell;
-    const CellCoordinates& b = anchors_[j].cell;
+    const CellCoordinates& a = records_[i].anchor.cell;
+    const CellCoordinates& b = records_[j].anchor.cell;
     const auto [first_x, last_x] = images_within(grid.x, a.x - b.x, reach(grid.x, sum));
     const auto [first_y, last_y] = images_within(grid.y, a.y - b.y, reach(grid.y, sum));
     for (std::int32_t x = first_x; x <= last_x; ++x)
@@ -345,7 +362,7 @@ void EventLoopOf<A>::scan_listed(std::uint32_t i, NextEvent& best) const {
 
 template <Acceleration A>
 void EventLoopOf<A>::scan_obstacles(std::uint32_t i, NextEvent& best) const {
-    const Anchor& a = anchors_[i];
+    const Anchor& a = records_[i].anchor;
     const auto consider = [&](const NextEvent& event) {
         if (precedes(event, best, i)) best = event;
     };
@@ -376,7 +393,7 @@ void EventLoopOf<A>::scan_obstacles(std::uint32_t i, NextEvent& best) const {
 template <Acceleration A>
 NextEvent EventLoopOf<A>::search(std::uint32_t i) const {
     NextEvent best;
-    const CellCoordinates c = anchors_[i].cell;
+    const CellCoordinates c = records_[i].anchor.cell;
     const std::int32_t reach_x = cell_reach(bodies_.grid.x, i);
     const std::int32_t reach_y = cell_reach(bodies_.grid.y, i);
     if (reaches_all(reach_x, reach_y))
@@ -393,15 +410,15 @@ NextEvent EventLoopOf<A>::search(std::uint32_t i) const {
 template <Acceleration A>
 void EventLoopOf<A>::expect(std::uint32_t i, const NextEvent& event) {
     wake_partner(i);
-    next_[i] = event;
-    asleep_[i] = 0;
+    records_[i].next = event;
+    sides_[i].asleep = 0;
     if (const std::uint32_t j = event.local; j != kNowhere) {
-        NextEvent& theirs = next_[j];
-        if (theirs.partner == ids_[i] && theirs.time == event.time && !asleep_[j] &&
-            theirs.stamp == anchors_[i].stamp && theirs.image_x == -event.image_x &&
-            theirs.image_y == -event.image_y && clock_.since_epoch(event.time, epoch_) <= ends_[j]) {
+        NextEvent& theirs = records_[j].next;
+        if (theirs.partner == records_[i].id && theirs.time == event.time && !sides_[j].asleep &&
+            theirs.stamp == records_[i].anchor.stamp && theirs.image_x == -event.image_x &&
+            theirs.image_y == -event.image_y && clock_.since_epoch(event.time, epoch_) <= sides_[j].end) {
             theirs.local = i;
-            asleep_[i] = 1;
+            sides_[i].asleep = 1;
         }
     }
     schedule(i);
@@ -411,9 +428,9 @@ void EventLoopOf<A>::expect(std::uint32_t i, const NextEvent& event) {
 /// Ball i's event is about to be dropped: a partner that relies on it looks after itself again.
 template <Acceleration A>
 void EventLoopOf<A>::wake_partner(std::uint32_t i) {
-    const std::uint32_t j = next_[i].local;
-    if (j == kNowhere || !asleep_[j] || next_[j].local != i) return;
-    asleep_[j] = 0;
+    const std::uint32_t j = records_[i].next.local;
+    if (j == kNowhere || !sides_[j].asleep || records_[j].next.local != i) return;
+    sides_[j].asleep = 0;
     schedule(j);
 }
 
@@ -422,45 +439,56 @@ template <Acceleration A>
 void EventLoopOf<A>::lose(std::uint32_t i) {
     if (is_owned(i)) failed_ = true;
     wake_partner(i);
-    asleep_[i] = 0;
-    ends_[i] = -std::numeric_limits<double>::infinity();
+    sides_[i].asleep = 0;
+    sides_[i].end = -std::numeric_limits<double>::infinity();
     schedule(i);
 }
 
 /// Where many events share one instant their order counts: then a pair's event is known to its smaller id.
 template <Acceleration A>
 void EventLoopOf<A>::tell_lower(std::uint32_t i) {
-    const NextEvent event = next_[i];
+    const NextEvent event = records_[i].next;
     const std::uint32_t j = event.local;
-    if (j == kNowhere || event.partner > ids_[i] || anchors_[j].stamp != event.stamp) return;
-    const NextEvent theirs{event.time, ids_[i], anchors_[i].stamp, -event.image_x, -event.image_y, i};
-    if (precedes(theirs, next_[j], j)) {
+    if (j == kNowhere || event.partner > records_[i].id || records_[j].anchor.stamp != event.stamp) return;
+    const NextEvent theirs{event.time,     records_[i].id, records_[i].anchor.stamp,
+                           -event.image_x, -event.image_y, i};
+    if (precedes(theirs, records_[j].next, j)) {
         wake_partner(j);
-        next_[j] = theirs;
-    } else if (!asleep_[j] || next_[j].local != i) {
+        records_[j].next = theirs;
+    } else if (!sides_[j].asleep || records_[j].next.local != i) {
         return;
     }
-    asleep_[j] = 0;
+    sides_[j].asleep = 0;
     schedule(j);
 }
 
 template <Acceleration A>
 void EventLoopOf<A>::predict_crossing(std::uint32_t i) {
-    const Anchor& a = anchors_[i];
-    const Vec2 acceleration = acceleration_of(i);
+    const Anchor& a = records_[i].anchor;
+    [[maybe_unused]] const Vec2 acceleration = acceleration_of(i);
     const double anchored = clock_.since_epoch(a.time, epoch_);
     const double since = std::max(0.0, now_ - anchored);
-    Crossing first{std::numeric_limits<double>::infinity(), 0, 0};
-    const auto consider = [&](double time, std::int8_t dx, std::int8_t dy) {
-        if (time < first.time) first = {time, dx, dy};
-    };
+    Crossing first;
     const Grid& grid = bodies_.grid;
-    consider(time_to_leave(grid.x.border(a.cell.x + 1) - a.x, a.vx, acceleration.x(), since), 1, 0);
-    consider(time_to_leave(a.x - grid.x.border(a.cell.x), -a.vx, -acceleration.x(), since), -1, 0);
-    consider(time_to_leave(grid.y.border(a.cell.y + 1) - a.y, a.vy, acceleration.y(), since), 0, 1);
-    consider(time_to_leave(a.y - grid.y.border(a.cell.y), -a.vy, -acceleration.y(), since), 0, -1);
+    const CellCoordinates& c = a.cell;
+    const auto consider = [&](double time, int dx, int dy) {
+        if (time < first.time) first = {time, static_cast<std::int8_t>(dx), static_cast<std::int8_t>(dy)};
+    };
+    if constexpr (A == Acceleration::kNone) {  // only one side of each axis lies ahead
+        const int dx = a.vx > 0 ? 1 : -1;
+        const int dy = a.vy > 0 ? 1 : -1;
+        if (a.vx != 0) consider(std::max((grid.x.border(c.x + (dx > 0)) - a.x) / a.vx, since), dx, 0);
+        if (a.vy != 0) consider(std::max((grid.y.border(c.y + (dy > 0)) - a.y) / a.vy, since), 0, dy);
+    } else {
+        consider(time_to_leave(grid.x.border(c.x + 1) - a.x, a.vx, acceleration.x(), since), 1, 0);
+        consider(time_to_leave(a.x - grid.x.border(c.x), -a.vx, -acceleration.x(), since), -1, 0);
+        consider(time_to_leave(grid.y.border(c.y + 1) - a.y, a.vy, acceleration.y(), since), 0, 1);
+        consider(time_to_leave(a.y - grid.y.border(c.y), -a.vy, -acceleration.y(), since), 0, -1);
+    }
     first.time = std::max(anchored + first.time, now_);
-    crossings_[i] = first;
+    records_[i].crossing_time = first.time;
+    records_[i].crossing_dx = first.dx;
+    records_[i].crossing_dy = first.dy;
 }
 
 /// All balls at once, side by side where there is an executor: each finds its own next event and tells
@@ -469,14 +497,14 @@ template <Acceleration A>
 void EventLoopOf<A>::predict_all(const Executor* executor) {
     const auto predict = [this](std::size_t first, std::size_t last) {
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
-            next_[i] = search(i);
+            records_[i].next = search(i);
             predict_crossing(i);
         }
     };
     if (executor != nullptr)
-        executor->for_ranges(anchors_.size(), 512, predict);
+        executor->for_ranges(records_.size(), 512, predict);
     else
-        predict(0, anchors_.size());
+        predict(0, records_.size());
     start();
 }
 

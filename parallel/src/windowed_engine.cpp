@@ -9,14 +9,15 @@
 namespace carom {
 namespace {
 
-constexpr std::int32_t kHalo = 8;  // cells
+constexpr std::int32_t kHalo = 6;  // cells
 // So many cells of it are simulated to the window's end; the domain's own balls come there.
-static const std::int32_t kKept = getenv("KEPT") ? atoi(getenv("KEPT")) : 4;
+constexpr std::int32_t kKept = 4;
 // The first window's share of an epoch; the next ones follow the collisions that it had.
 constexpr double kFirstWindow = 1.0 / 256;
 // How the collisions a ball aimed at in a window grow while all agrees, and shrink when it does not.
-constexpr double kGrowth = 1.01;
-constexpr double kShrinkage = 0.8;
+constexpr double kFirstGrowth = 1.05;  // until the first disagreement
+constexpr double kGrowth = 1.002;
+constexpr double kShrinkage = 0.8;  // where all had to run again; the power of the share that had to
 constexpr double kLeastTarget = 0.05;
 constexpr double kMostTarget = 4;
 constexpr int kMostRepairs = 2;
@@ -69,7 +70,8 @@ WindowedEngine::WindowedEngine(const Bodies& bodies, std::span<const Ball> balls
       executor_(executor),
       wanted_domains_(domains),
       halo_(halo > 0 ? halo : kHalo),
-      window_length_(bodies.physics.clock.epoch_length() * kFirstWindow) {
+      window_length_(bodies.physics.clock.epoch_length() * kFirstWindow),
+      growth_(kFirstGrowth) {
     std::vector<BallRecord> records = records_at_start(bodies, balls);
     std::vector<BallExtra> extras(bodies.needs_extras() ? records.size() : 0);
     split(std::move(records), std::move(extras), whole(bodies.grid.x), whole(bodies.grid.y), domains);
@@ -167,36 +169,55 @@ void WindowedEngine::index_records(DomainState& d) const {
 
 // ---- One domain through a window
 
-/// Fills a loop with the balls in a region: those in the domain's own cells, and copies of the others. With
-/// `ends_early` a copy is given up the sooner the deeper in the halo it starts: what it does later cannot
-/// reach the domain before the window ends.
-void WindowedEngine::load(Workshop& w, const DomainState& d, const Region& region, const Time& window_end,
-                          bool ends_early) const {
+/// Appends to a message what a domain holds for a region: plain data, all that the receiver needs.
+void WindowedEngine::pack(std::uint32_t from, const Region& region, std::vector<BallMessage>& message) const {
+    const DomainState& source = domains_[from];
+    if (!region.x.meets(source.cells_x) || !region.y.meets(source.cells_y)) return;
+    for (std::uint32_t k = 0; k < source.records.size(); ++k) {
+        CellCoordinates c = source.cells[k];
+        c.x += region.x.frame_of(c.x);
+        c.y += region.y.frame_of(c.y);
+        if (!region.x.contains(c.x) || !region.y.contains(c.y)) continue;
+        BallMessage& ball = message.emplace_back();
+        ball.record = source.records[k];
+        if (!source.extras.empty()) ball.extra = source.extras[k];
+        ball.origin = {from, k};
+        ball.depth = region.depth(c);
+    }
+}
+
+/// Fills a loop from a message: the domain's own balls first, then copies of the others. With `ends_early` a
+/// copy is given up the sooner the deeper in the halo it starts: what it does later cannot reach the domain
+/// before the window ends.
+void WindowedEngine::unpack(const std::vector<BallMessage>& message, const Region& region, std::int32_t halo,
+                            const Time& window_end, bool ends_early, Workshop& w) const {
     const Clock& clock = bodies_.physics.clock;
-    EventLoop& loop = *w.loop;
-    loop.clear(region, window_start_);
-    w.origins.clear();
     std::vector<Time> ends;  // of copies, by depth
     const double length = clock.difference(window_end, window_start_);
-    for (std::int32_t depth = 0; depth <= d.halo; ++depth) {
+    for (std::int32_t depth = 0; depth <= halo; ++depth) {
         const double share =
-            depth <= kKept ? 1.0 : double(d.halo - depth + 1) / double(std::max(1, d.halo - kKept + 1));
+            depth <= kKept ? 1.0 : double(halo - depth + 1) / double(std::max(1, halo - kKept + 1));
         ends.push_back(share < 1 && ends_early ? clock.after(window_start_, share * length) : kNever);
     }
-    for (std::uint32_t s = 0; s < domains_.size(); ++s) {
-        const DomainState& source = domains_[s];
-        if (!region.x.meets(source.cells_x) || !region.y.meets(source.cells_y)) continue;
-        for (std::uint32_t k = 0; k < source.records.size(); ++k) {
-            CellCoordinates c = source.cells[k];
-            c.x += region.x.frame_of(c.x);
-            c.y += region.y.frame_of(c.y);
-            if (!region.x.contains(c.x) || !region.y.contains(c.y)) continue;
-            const auto depth = static_cast<std::size_t>(region.depth(c));
-            loop.add(source.records[k], source.extras.empty() ? nullptr : &source.extras[k], depth == 0,
-                     depth < ends.size() ? ends[depth] : ends.back());
-            w.origins.push_back({s, k});
+    w.loop->clear(region, window_start_);
+    w.loop->reserve(message.size());
+    w.origins.clear();
+    for (const bool own : {true, false}) {
+        for (const BallMessage& ball : message) {
+            if ((ball.depth == 0) != own) continue;
+            w.loop->add(ball.record, &ball.extra, own,
+                        ends[std::min(static_cast<std::size_t>(ball.depth), ends.size() - 1)]);
+            w.origins.push_back(ball.origin);
         }
+        if (own) w.own = w.loop->size();
     }
+}
+
+void WindowedEngine::load(Workshop& w, const Region& region, std::int32_t halo, const Time& window_end,
+                          bool ends_early) const {
+    w.message.clear();
+    for (std::uint32_t d = 0; d < domains_.size(); ++d) pack(d, region, w.message);
+    unpack(w.message, region, halo, window_end, ends_early, w);
 }
 
 void WindowedEngine::run(DomainState& d, const Time& window_end, bool inclusive) {
@@ -204,7 +225,7 @@ void WindowedEngine::run(DomainState& d, const Time& window_end, bool inclusive)
     Workshop& w = *lease;
     w.loop->keeps_window = true;
     d.region = {bodies_.grid, d.x, d.y, d.halo};
-    load(w, d, d.region, window_end, true);
+    load(w, d.region, d.halo, window_end, true);
     w.loop->start();
     try {
         w.loop->advance_to(window_end, inclusive);
@@ -230,23 +251,21 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     d.events = loop.events;
     d.copied_collisions =
         loop.collisions_of_all - std::min<std::uint64_t>(loop.collisions_of_all, d.notes.size());
-    std::vector<std::uint32_t> copy_of(loop.size(), kNowhere);
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-        if (loop.is_owned(i)) {
-            d.results.push_back(loop.record(i));
-            if (bodies_.needs_extras()) d.result_extras.push_back(loop.extra(i));
-            d.last_overwritten.push_back(loop.last_overwritten[i]);
-            domains_[w.origins[i].domain].histories[w.origins[i].index] = loop.history(i);
-        } else {
-            copy_of[i] = static_cast<std::uint32_t>(d.copies.size());
-            const CellCoordinates c = domains_[w.origins[i].domain].cells[w.origins[i].index];
-            const CellCoordinates frame = d.region.frame_of(c);
-            d.copies.push_back({w.origins[i], loop.history(i), d.region.mark({c.x + frame.x, c.y + frame.y}),
-                                loop.is_lost(i, window_end)});
-        }
+    d.results.assign(loop.records().begin(), loop.records().begin() + w.own);
+    for (std::uint32_t i = 0; i < w.own; ++i) {
+        if (bodies_.needs_extras()) d.result_extras.push_back(loop.extra(i));
+        d.last_overwritten.push_back(loop.last_overwritten(i));
+        domains_[w.origins[i].domain].histories[w.origins[i].index] = loop.history(i);
+    }
+    d.copies.reserve(loop.size() - w.own);
+    for (std::uint32_t i = w.own; i < loop.size(); ++i) {
+        const CellCoordinates c = domains_[w.origins[i].domain].cells[w.origins[i].index];
+        const CellCoordinates frame = d.region.frame_of(c);
+        d.copies.push_back({w.origins[i], loop.history(i), d.region.mark({c.x + frame.x, c.y + frame.y}),
+                            loop.is_lost(i, window_end)});
     }
     for (const Visit& v : loop.visits_of_copies)
-        d.copy_visits.push_back({copy_of[v.ball], d.region.mark(v.cell)});
+        d.copy_visits.push_back({v.ball - w.own, d.region.mark(v.cell)});
     // Other domains reach no further into this one than their halo.
     for (const Visit& v : loop.visits)
         if (!d.region.x.is_deep_inside(v.cell.x, 2 * halo_) ||
@@ -288,6 +307,7 @@ bool WindowedEngine::agrees(const DomainState& d) const {
 bool WindowedEngine::try_window(const Time& window_end, bool inclusive) {
     std::vector<std::uint8_t> runs(domains_.size(), 1);
     for (DomainState& d : domains_) d.halo = halo_;
+    disagreeing_ = 0;
     for (int round = 0;; ++round) {
         for_each_domain([&](std::size_t d) {
             if (runs[d]) run(domains_[d], window_end, inclusive);
@@ -296,6 +316,7 @@ bool WindowedEngine::try_window(const Time& window_end, bool inclusive) {
         const auto disagreeing = static_cast<std::uint64_t>(std::ranges::count(runs, 1));
         if (disagreeing == 0) return true;
         counts_.window_retries += disagreeing;
+        disagreeing_ += disagreeing;
         if (round == kMostRepairs || 4 * disagreeing > 3 * domains_.size() + 4) return false;
         for (std::size_t d = 0; d < domains_.size(); ++d)
             if (runs[d]) domains_[d].halo += domains_[d].halo / 2 + 1;
@@ -307,10 +328,7 @@ void WindowedEngine::run_together(const Time& window_end, bool inclusive) {
     const Lease lease(*this);
     Workshop& w = *lease;
     w.loop->keeps_window = true;
-    DomainState all;
-    all.x = whole(bodies_.grid.x);
-    all.y = whole(bodies_.grid.y);
-    load(w, all, {bodies_.grid, all.x, all.y, 0}, window_end, false);
+    load(w, {bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0}, 0, window_end, false);
     w.loop->start();
     w.loop->advance_to(window_end, inclusive);
     EventLoop& loop = *w.loop;
@@ -325,11 +343,11 @@ void WindowedEngine::run_together(const Time& window_end, bool inclusive) {
     }
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
         DomainState& d = domains_[w.origins[i].domain];
-        d.results.push_back(loop.record(i));
+        d.results.push_back(loop.records()[i]);
         if (bodies_.needs_extras()) d.result_extras.push_back(loop.extra(i));
         // The chain of overwritten anchors, the oldest first.
         std::vector<std::uint32_t> chain;
-        for (std::uint32_t k = loop.last_overwritten[i]; k != kNowhere; k = loop.overwritten[k].previous)
+        for (std::uint32_t k = loop.last_overwritten(i); k != kNowhere; k = loop.overwritten[k].previous)
             chain.push_back(k);
         std::uint32_t last = kNowhere;
         for (; !chain.empty(); chain.pop_back()) {
@@ -352,18 +370,15 @@ void WindowedEngine::predict_anew(bool renews_field) {
         const Lease lease(*this);
         Workshop& w = *lease;
         w.loop->keeps_window = false;
-        d.halo = kSight;
-        load(w, d, {bodies_.grid, d.x, d.y, kSight}, kNever, false);
+        load(w, {bodies_.grid, d.x, d.y, kSight}, kSight, kNever, false);
         if (renews_field) w.loop->renew_field(window_start_);
         w.loop->predict_all(nullptr);
         d.events = w.loop->events;
         d.results.clear();
         d.result_extras.clear();
-        for (std::uint32_t i = 0; i < w.loop->size(); ++i) {
-            if (!w.loop->is_owned(i)) continue;
-            d.results.push_back(w.loop->record(i));
-            if (bodies_.needs_extras()) d.result_extras.push_back(w.loop->extra(i));
-        }
+        d.results.assign(w.loop->records().begin(), w.loop->records().begin() + w.own);
+        for (std::uint32_t i = 0; bodies_.needs_extras() && i < w.own; ++i)
+            d.result_extras.push_back(w.loop->extra(i));
         d.notes.clear();
         d.told = 0;
         d.copied_collisions = 0;
@@ -419,10 +434,13 @@ void WindowedEngine::next_window(const Time& horizon) {
 void WindowedEngine::tune(double length, bool agreed) {
     if (!agreed) {
         target_ = std::max(kLeastTarget, target_ * kShrinkage);
+        growth_ = kGrowth;
         window_length_ = length / 2;
         return;
     }
-    target_ = std::min(kMostTarget, target_ * kGrowth);
+    const double retried = double(disagreeing_) / double(domains_.size());
+    if (retried > 0) growth_ = kGrowth;
+    target_ = std::min(kMostTarget, target_ * growth_ * std::pow(kShrinkage, retried));
     double collisions = 0;
     for (const DomainState& d : domains_) collisions += double(d.notes.size());
     const double a_ball = 2 * collisions / std::max(1.0, double(bodies_.moving));

@@ -27,7 +27,9 @@ class WindowedEngine final : public Engine {
     // What a domain works with while it runs; as many as there are threads, used again and again.
     struct Workshop {
         std::unique_ptr<EventLoop> loop;
-        std::vector<Origin> origins;  // one a ball of the loop
+        std::vector<Origin> origins;  // one a ball of the loop, the domain's own first
+        std::uint32_t own = 0;        // so many are the domain's own
+        std::vector<BallMessage> message;
     };
     class Lease;
 
@@ -36,7 +38,10 @@ class WindowedEngine final : public Engine {
     void split(std::vector<BallRecord> records, std::vector<BallExtra> extras, Span x, Span y, int parts);
     void split_anew();
     void index_records(DomainState& d) const;
-    void load(Workshop& w, const DomainState& d, const Region& region, const Time& window_end,
+    void pack(std::uint32_t from, const Region& region, std::vector<BallMessage>& message) const;
+    void unpack(const std::vector<BallMessage>& message, const Region& region, std::int32_t halo,
+                const Time& window_end, bool ends_early, Workshop& w) const;
+    void load(Workshop& w, const Region& region, std::int32_t halo, const Time& window_end,
               bool ends_early) const;
     void run(DomainState& d, const Time& window_end, bool inclusive);
     void keep_outcome(DomainState& d, Workshop& w, const Time& window_end);
@@ -63,6 +68,8 @@ class WindowedEngine final : public Engine {
     bool in_window_ = false;         // whether results are there
     bool window_is_closed_ = false;  // whether events at window_end_ are resolved
     double window_length_;
+    std::uint64_t disagreeing_ = 0;  // domains that had to go through the present window again
+    double growth_;
     double target_ = 1;  // collisions a ball in a window
     int since_split_ = 0;
 };

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 namespace carom {
@@ -68,13 +67,17 @@ class EventQueue {
 
     [[nodiscard]] double key(std::uint32_t id) const { return keys_[id]; }
     /// The least key; infinity when nothing is to come.
-    [[nodiscard]] double first_key() const { return keys_[first({})]; }
+    [[nodiscard]] double first_key() const { return keys_[first()]; }
 
-    /// The id with the least key; of equals the one of the lowest rank, or without ranks the smallest.
-    [[nodiscard]] std::uint32_t first(std::span<const std::uint32_t> ranks = {}) const {
+    /// The smallest id with the least key.
+    [[nodiscard]] std::uint32_t first() const {
+        return first([](std::uint32_t id) { return id; });
+    }
+    /// The id with the least key; of equals the one whose rank(id) is lowest.
+    template <class Rank>
+    [[nodiscard]] std::uint32_t first(Rank&& rank) const {
         const auto id = static_cast<std::uint32_t>(root_ & id_mask_);
         if (!is_shared(id)) return id;
-        const auto rank = [ranks](std::uint32_t of) { return ranks.empty() ? of : ranks[of]; };
         std::uint32_t best = id;
         for_each_close([&](std::uint32_t other) {
             if (keys_[other] < keys_[best] || (keys_[other] == keys_[best] && rank(other) < rank(best)))
