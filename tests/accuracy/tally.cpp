@@ -26,20 +26,32 @@ std::string brief(double x) {
 }
 
 std::string tally_header() {
-    return "| kind | queries | hits | in the band | missed, invented there | missed, invented elsewhere "
-           "| error in units: median | worst | relative error: median | worst | open, checked, not confirmed "
-           "|\n"
-           "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+    return "| kind | queries | hits | in the band (missed, invented) | elsewhere (missed, invented) "
+           "| error in units, median | worst | relative error, median | worst |\n"
+           "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
 }
 
-std::string tally_line(Tally t) {
+std::string tally_line(Tally& t) {
     constexpr double kHalfUlp = 0x1p-53;
-    return fmt::format("| {} | {} | {} | {} | {}, {} | {}, {} | {} | {} | {} | {} | {}, {}, {} |\n", t.kind,
+    return fmt::format("| {} | {} | {} | {} ({}, {}) | {}, {} | {} | {} | {} | {} |\n", t.kind,
                        grouped(t.queries), grouped(t.hits), grouped(t.band), t.missed_in_band,
                        t.invented_in_band, t.missed, t.invented, brief(quantile(t.in_units, 0.5)),
                        brief(quantile(t.in_units, 1)), brief(kHalfUlp * quantile(t.relative, 0.5)),
-                       brief(kHalfUlp * quantile(t.relative, 1)), grouped(t.open), grouped(t.checked),
-                       t.unconfirmed);
+                       brief(kHalfUlp * quantile(t.relative, 1)));
+}
+
+std::string oracle_line(const std::vector<Tally>& tallies) {
+    std::int64_t queries = 0, open = 0, checked = 0, unconfirmed = 0;
+    for (const Tally& t : tallies) {
+        queries += t.queries;
+        open += t.open;
+        checked += t.checked;
+        unconfirmed += t.unconfirmed;
+    }
+    return fmt::format(
+        "\nOf {} queries 113 bits left {} open; {} others were put to the slow oracles as well, which "
+        "contradicted {}.\n",
+        grouped(queries), grouped(open), grouped(checked), grouped(unconfirmed));
 }
 
 }  // namespace carom::accuracy

@@ -23,7 +23,9 @@ struct Tally {
 double quantile(std::vector<float>& values, double q);
 
 std::string tally_header();
-std::string tally_line(Tally tally);
+std::string tally_line(Tally& tally);
+/// One line on how the oracles agreed over several kinds.
+std::string oracle_line(const std::vector<Tally>& tallies);
 
 /// 1234567 as 1,234,567; 0 as it is.
 std::string grouped(std::int64_t n);

@@ -168,7 +168,10 @@ Tally measure(const WallKind& kind, std::uint64_t seed, const Effort& effort) {
         const double found = wall_time_of_impact<double>(q.centre, q.radius, q.from, q.to).time;
         const WallTruth truth = wall_truth(q, 0);
         ++tally.queries;
-        tally.open += truth.verdict == Verdict::kUndecided ? 1 : 0;
+        if (truth.verdict == Verdict::kUndecided) {
+            ++tally.open;
+            continue;
+        }
         const bool hit = truth.verdict == Verdict::kHit;
         tally.hits += hit ? 1 : 0;
         if (!hit && !(found < kNever)) continue;
