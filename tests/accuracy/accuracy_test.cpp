@@ -157,6 +157,40 @@ TEST_P(Response, KeepsMomentumEnergyAndSpeeds) {
 INSTANTIATE_TEST_SUITE_P(ResponseAccuracy, Response, testing::ValuesIn(response_kinds()),
                          name_of<ResponseKind>);
 
+TEST(Bounce, KeepsEnergyAndSpeeds) {
+    SCOPED_TRACE("seed 59");
+    for (const double e_least : {1.0, 0.0}) {
+        ResponseTally tally = measure_bounce("", e_least, 59, 20000);
+        EXPECT_LE(quantile(tally.energy, 1), 12);
+        EXPECT_LE(quantile(tally.energy, 0.5), 1);
+        EXPECT_LE(quantile(tally.separation, 1), 12);
+        EXPECT_LE(quantile(tally.tangent, 1), 6);
+        EXPECT_EQ(tally.approaching, 0);
+    }
+}
+
+// A duration cuts off what comes later, and nothing else: not by an ulp.
+TEST(Duration, NeverCutsOffAHit) {
+    SCOPED_TRACE("seed 60");
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    for (const auto& kinds : {straight_kinds(), curved_kinds()}) {
+        for (const DiscKind& kind : kinds) {
+            test::Random random(60);
+            for (int i = 0; i < 5000; ++i) {
+                const DiscQuery q = kind.make(random);
+                const double t = disc_time_of_impact<double>(q.r, q.v, q.a, q.s);
+                const auto within = [&](double duration) {
+                    return disc_time_of_impact<double>(q.r, q.v, q.a, q.s, duration);
+                };
+                ASSERT_EQ(within(t), t) << kind.name << ", case " << i;
+                if (t < kNever && t > 0) {
+                    ASSERT_EQ(within(std::nextafter(t, 0.0)), kNever) << kind.name << ", case " << i;
+                }
+            }
+        }
+    }
+}
+
 // Sixteen runs: their root mean square stays within a random walk's sigma (which counts every rounding at its
 // largest) and four of its standard errors (sigma / sqrt(32)); their mean shows no way that it prefers.
 TEST(Drift, EnergyWalksNoFasterThanRounding) {

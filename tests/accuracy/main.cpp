@@ -77,6 +77,10 @@ void print_response(const Effort& effort) {
         ResponseTally tally = measure(kind, ++seed, effort.queries);
         print(response_line(tally));
     }
+    ResponseTally elastic = measure_bounce("off a wall, elastic", 1, ++seed, effort.queries);
+    print(response_line(elastic));
+    ResponseTally lossy = measure_bounce("off a wall, restitution 0 to 1", 0, ++seed, effort.queries);
+    print(response_line(lossy));
 }
 
 void print_drift(std::int64_t most) {

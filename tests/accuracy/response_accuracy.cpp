@@ -152,6 +152,32 @@ ResponseTally measure(const ResponseKind& kind, std::uint64_t seed, std::int64_t
     return tally;
 }
 
+ResponseTally measure_bounce(const std::string& name, double e_least, std::uint64_t seed,
+                             std::int64_t queries) {
+    ResponseTally tally;
+    tally.kind = name;
+    tally.queries = queries;
+    Random random(seed);
+    for (std::int64_t i = 0; i < queries; ++i) {
+        const Vec2 normal = random.direction(random.decades(-3, 3));
+        const Vec2 v = across(normal.normalized()) * random.uniform(-1, 1) -
+                       normal.normalized() * random.decades(-15, 0);
+        const double e = random.uniform(e_least, 1);
+        const Vec2 after = bounce<double>(v, normal, e);
+        tally.approaching += dot<double>(normal, after) < 0 ? 1 : 0;
+        const QuadPair line{normal.x(), normal.y()};
+        const QuadPair side{-line.y, line.x};
+        const Quad length_squared = along(line, line);
+        const Quad approach = along(line, {v.x(), v.y()});
+        const Quad loss = (1 - Quad(e) * Quad(e)) * approach * approach / length_squared;
+        tally.energy.push_back(ulps(energy(1, after) + loss - energy(1, v), energy(1, v)));
+        const Quad scale = square_root(length_squared) * Quad(v.norm());
+        tally.separation.push_back(ulps(along(line, {after.x(), after.y()}) + Quad(e) * approach, scale));
+        tally.tangent.push_back(ulps(along(side, difference(after, v)), scale));
+    }
+    return tally;
+}
+
 std::string response_header() {
     return "| kind | collisions | momentum in units, median | worst | energy in ulps, median | worst "
            "| separation in ulps, worst | tangents in ulps, worst | left approaching |\n"
@@ -159,10 +185,11 @@ std::string response_header() {
 }
 
 std::string response_line(ResponseTally& t) {
+    const auto momentum = [&](double q) { return t.momentum.empty() ? "" : brief(quantile(t.momentum, q)); };
     return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", t.kind, grouped(t.queries),
-                       brief(quantile(t.momentum, 0.5)), brief(quantile(t.momentum, 1)),
-                       brief(quantile(t.energy, 0.5)), brief(quantile(t.energy, 1)),
-                       brief(quantile(t.separation, 1)), brief(quantile(t.tangent, 1)), t.approaching);
+                       momentum(0.5), momentum(1), brief(quantile(t.energy, 0.5)),
+                       brief(quantile(t.energy, 1)), brief(quantile(t.separation, 1)),
+                       brief(quantile(t.tangent, 1)), t.approaching);
 }
 
 std::vector<double> energy_changes(int discs, const std::vector<std::int64_t>& counts, std::uint64_t seed) {

@@ -42,6 +42,12 @@ struct ResponseTally {
 };
 
 ResponseTally measure(const ResponseKind& kind, std::uint64_t seed, std::int64_t queries);
+
+/// bounce() off a wall or a static disc at any slant, approach from 1e-15 of the speed up, with restitution
+/// `e_least` to 1. No momentum is kept: that tally stays empty.
+ResponseTally measure_bounce(const std::string& name, double e_least, std::uint64_t seed,
+                             std::int64_t queries);
+
 std::string response_header();
 std::string response_line(ResponseTally& tally);
 
