@@ -155,6 +155,10 @@ bool read(int argc, char** argv, Options& options) {
 
 int main(int argc, char** argv) {
     carom::accuracy::Options options;
+    if (argc == 2 && std::string(argv[1]) == "--help") {
+        std::fputs(carom::accuracy::kUsage, stdout);
+        return 0;
+    }
     if (!carom::accuracy::read(argc, argv, options)) {
         std::fputs(carom::accuracy::kUsage, stderr);
         return 2;
