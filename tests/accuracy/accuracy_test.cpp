@@ -60,6 +60,11 @@ TEST_P(Straight, TimesAreRightToAFewUnits) {
     expect_no_wrong_verdict(tally);
     EXPECT_LE(quantile(tally.in_units, 1), 8);
     EXPECT_LE(quantile(tally.in_units, 0.5), 1);
+    // The unit forgives much near contact and in a graze; the code does not need it: six roundings of either
+    // sign come to an ulp, two half ulps, now and then. A gap of 1e-17 has lost digits even in twice as many.
+    if (GetParam().name != "start in contact") {
+        EXPECT_LE(quantile(tally.relative, 0.5), 2);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(DiscAccuracy, Straight, testing::ValuesIn(straight_kinds()), name_of<DiscKind>);
@@ -74,6 +79,8 @@ TEST_P(Curved, TimesAreRightToAFewUnits) {
     expect_no_wrong_verdict(tally);
     EXPECT_LE(quantile(tally.in_units, 1), 4);
     EXPECT_LE(quantile(tally.in_units, 0.5), 0.5);
+    // In most cases the root rounded, half an ulp away at the most.
+    EXPECT_LE(quantile(tally.relative, 0.5), 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(DiscAccuracy, Curved, testing::ValuesIn(curved_kinds()), name_of<DiscKind>);
