@@ -39,6 +39,7 @@ void measure(double count, double packing, double seconds, int threads, int doma
     while (static_cast<double>(world.counts().ball_collisions) < 3 * balls) world.step(stretch);
 
     const Counts counts_0 = world.counts();
+    const double worked_0 = world.working_seconds();
     const double energy = world.energy(), time_0 = world.time(), virial_0 = world.virial();
     const Clock::time_point start = Clock::now();
     double elapsed = 0;
@@ -52,7 +53,8 @@ void measure(double count, double packing, double seconds, int threads, int doma
     const double kinetic = energy / (balls - 1) * balls;  // N kT: the momentum is fixed at zero
     std::printf(
         "discs=%.0f packing=%.2f collisions_per_second=%.4g events=%.2f Z=%.4f energy_change=%.1e "
-        "threads=%d copied=%.1f%% windows=%.2f retried=%.1f%%\n",
+        "threads=%d copied=%.1f%% windows=%.2f retried=%.1f%% "
+        "worked=%.1f%%\n",
         balls, packing, collisions / elapsed,
         static_cast<double>(counts_1.events - counts_0.events) / collisions,
         1 + (world.virial() - virial_0) / (2 * kinetic * (world.time() - time_0)),
@@ -60,7 +62,8 @@ void measure(double count, double packing, double seconds, int threads, int doma
         100 * static_cast<double>(counts_1.copied_collisions - counts_0.copied_collisions) / collisions,
         collisions / std::max(1.0, static_cast<double>(counts_1.windows - counts_0.windows)),
         100 * static_cast<double>(counts_1.window_retries - counts_0.window_retries) /
-            std::max(1.0, static_cast<double>(counts_1.windows - counts_0.windows)));
+            std::max(1.0, static_cast<double>(counts_1.windows - counts_0.windows)),
+        100 * (world.working_seconds() - worked_0) / (elapsed * world.threads()));
 }
 
 }  // namespace

@@ -31,6 +31,8 @@ class Engine {
     /// Collisions are told from the time advanced to last on; an empty function turns it off.
     virtual void listen(std::function<void(const Collision&)> listener) = 0;
 
+    /// Seconds that the threads have worked on domains, all together; 0 where there is one loop.
+    [[nodiscard]] virtual double working_seconds() const { return 0; }
     [[nodiscard]] const Counts& counts() const { return counts_; }
     [[nodiscard]] double virial() const { return virial_.value(); }
 

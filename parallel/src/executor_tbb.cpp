@@ -28,10 +28,13 @@ int Executor::threads() const {
 void Executor::for_ranges(std::size_t count, std::size_t grain,
                           const std::function<void(std::size_t, std::size_t)>& body) const {
     arena_->arena.execute([&] {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, count, grain),
-            [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); },
-            tbb::simple_partitioner());
+        const auto run = [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); };
+        const tbb::blocked_range<std::size_t> all(0, count, grain);
+        // One part a thread goes to the same thread each time, which has its data at hand.
+        if (count <= grain * static_cast<std::size_t>(arena_->threads))
+            tbb::parallel_for(all, run, tbb::static_partitioner());
+        else
+            tbb::parallel_for(all, run, tbb::simple_partitioner());
     });
 }
 

@@ -1,7 +1,7 @@
 #include "windowed_engine.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <tuple>
@@ -38,9 +38,13 @@ class WindowedEngine::Lease {
     explicit Lease(const WindowedEngine& engine) : engine_(engine) {
         {
             const std::lock_guard lock(engine.mutex_);
-            if (!engine.idle_.empty()) {
-                workshop_ = std::move(engine.idle_.back());
-                engine.idle_.pop_back();
+            // The one that this thread used last, if it can be had: its cache still has it.
+            auto found = std::ranges::find(engine.idle_, std::this_thread::get_id(),
+                                           [](const auto& idle) { return idle->thread; });
+            if (found == engine.idle_.end() && !engine.idle_.empty()) found = engine.idle_.begin();
+            if (found != engine.idle_.end()) {
+                workshop_ = std::move(*found);
+                engine.idle_.erase(found);
             }
         }
         if (!workshop_) {
@@ -49,6 +53,7 @@ class WindowedEngine::Lease {
             workshop_->loop->keeps_notes = true;
         }
         workshop_->loop->listens = static_cast<bool>(engine.listener_);
+        workshop_->thread = std::this_thread::get_id();
     }
     ~Lease() {
         const std::lock_guard lock(engine_.mutex_);
@@ -81,7 +86,9 @@ WindowedEngine::WindowedEngine(const Bodies& bodies, std::span<const Ball> balls
 template <class F>
 void WindowedEngine::for_each_domain(F&& f) const {
     executor_.for_ranges(domains_.size(), 1, [&](std::size_t first, std::size_t last) {
+        const auto start = std::chrono::steady_clock::now();
         for (std::size_t d = first; d < last; ++d) f(d);
+        working_time_ += (std::chrono::steady_clock::now() - start).count();
     });
 }
 

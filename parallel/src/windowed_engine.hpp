@@ -3,8 +3,11 @@
 // argument why equal histories are the serial ones.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include "domain_state.hpp"
@@ -22,6 +25,10 @@ class WindowedEngine final : public Engine {
     void read(const Time& t, std::span<BallState> states) const override;
     void audit(std::vector<Violation>& found) const override;
     void listen(std::function<void(const Collision&)> listener) override;
+    [[nodiscard]] double working_seconds() const override {
+        return std::chrono::duration<double>(std::chrono::steady_clock::duration(working_time_.load()))
+            .count();
+    }
 
  private:
     // What a domain works with while it runs; as many as there are threads, used again and again.
@@ -30,6 +37,7 @@ class WindowedEngine final : public Engine {
         std::vector<Origin> origins;  // one a ball of the loop, the domain's own first
         std::uint32_t own = 0;        // so many are the domain's own
         std::vector<BallMessage> message;
+        std::thread::id thread;  // that used it last
     };
     class Lease;
 
@@ -55,6 +63,7 @@ class WindowedEngine final : public Engine {
     void tell_until(const Time& end);
     void tune(double length, bool agreed);
 
+    mutable std::atomic<std::chrono::steady_clock::rep> working_time_ = 0;
     const Executor& executor_;
     int wanted_domains_;
     std::int32_t halo_;

@@ -213,6 +213,9 @@ const Domain& World::domain() const {
 Counts World::counts() const {
     return state_->engine->counts();
 }
+double World::working_seconds() const {
+    return state_->engine->working_seconds();
+}
 double World::virial() const {
     return state_->engine->virial();
 }

@@ -85,6 +85,8 @@ class World {
     [[nodiscard]] std::vector<Ball> balls() const;
 
     [[nodiscard]] Counts counts() const;
+    /// Seconds that the threads have worked on domains, all together, for benchmarks; 0 where there is one domain.
+    [[nodiscard]] double working_seconds() const;
     [[nodiscard]] double kinetic_energy() const;
     /// Kinetic plus potential in the scene's gravity and the balls' own accelerations.
     [[nodiscard]] double energy() const;
