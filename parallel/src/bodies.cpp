@@ -79,6 +79,8 @@ void Bodies::choose_margins() {
     const auto images_are_clear = [](const GridAxis& axis) {
         return !axis.periodic() || axis.count() >= kFewest;
     };
+    if (grid.x.periodic()) period.x() = grid.x.length(), turns.x() = 1 / grid.x.length();
+    if (grid.y.periodic()) period.y() = grid.y.length(), turns.y() = 1 / grid.y.length();
     filters = margin < 0x1p-20 && images_are_clear(grid.x) && images_are_clear(grid.y);
 }
 

@@ -49,9 +49,11 @@ struct Bodies {
 
     /// Margins of EventLoopOf::bound_times(), see choose_margins().
     bool filters = false;
-    double margin = 0;       ///< relative, of squared lengths
-    double farthest = 0;     ///< beyond such coordinates and flights the margin does not hold
-    double time_margin = 0;  ///< of times since the start of the epoch
+    double margin = 0;           ///< relative, of squared lengths
+    double farthest = 0;         ///< beyond such coordinates and flights the margin does not hold
+    double time_margin = 0;      ///< of times since the start of the epoch
+    Vec2 period = Vec2::Zero();  ///< 0 where the axis has none
+    Vec2 turns = Vec2::Zero();   ///< 1 / period
     static constexpr double kDoubtfulShare = 0x1p-20;
 
     [[nodiscard]] bool fixes(std::uint32_t id) const { return !is_static.empty() && is_static[id] != 0; }

@@ -30,7 +30,8 @@ void EventLoopOf<A>::advance_to(const Time& end, bool inclusive) {
 template <Acceleration A>
 void EventLoopOf<A>::run_until(double end, bool inclusive) {
     while (!failed_) {
-        std::uint32_t i = queue_.first([this](std::uint32_t b) { return records_[b].id; });
+        bool may_be_tied = false;
+        std::uint32_t i = queue_.front(may_be_tied);
         const double key = queue_.key(i);
         if (!(key < end || (inclusive && key == end))) return;
         if (key > now_) {
@@ -40,7 +41,7 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
         } else if (++events_at_once_ > most_events_at_once()) {
             refuse_wedged(i);
         }
-        if (!simultaneous_ && queue_.may_be_tied()) i = first_of_ties();
+        if (may_be_tied) i = first_of_ties();
         events += sides_[i].owned;
         if (sides_[i].asleep ||
             records_[i].crossing_time <= clock_.since_epoch(records_[i].next.time, epoch_))
@@ -54,18 +55,22 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
 /// smallest id with an event now holds the first one.
 template <Acceleration A>
 std::uint32_t EventLoopOf<A>::first_of_ties() {
-    tied_.clear();
-    queue_.for_each_first([&](std::uint32_t i) { tied_.push_back(i); });
-    const auto is_one_pair = [this] {
-        const NextEvent& a = records_[tied_[0]].next;
-        const NextEvent& b = records_[tied_[1]].next;
-        return a.partner == records_[tied_[1]].id && b.partner == records_[tied_[0]].id && a.time == b.time;
-    };
-    if (tied_.size() > 2 || (tied_.size() == 2 && !is_one_pair())) {
-        simultaneous_ = true;
-        for (const std::uint32_t i : tied_) tell_lower(i);
+    const auto rank = [this](std::uint32_t b) { return records_[b].id; };
+    if (!simultaneous_) {
+        tied_.clear();
+        queue_.for_each_first([&](std::uint32_t i) { tied_.push_back(i); });
+        const auto is_one_pair = [this] {
+            const NextEvent& a = records_[tied_[0]].next;
+            const NextEvent& b = records_[tied_[1]].next;
+            return a.partner == records_[tied_[1]].id && b.partner == records_[tied_[0]].id &&
+                   a.time == b.time;
+        };
+        if (tied_.size() > 2 || (tied_.size() == 2 && !is_one_pair())) {
+            simultaneous_ = true;
+            for (const std::uint32_t i : tied_) tell_lower(i);
+        }
     }
-    return queue_.first([this](std::uint32_t b) { return records_[b].id; });
+    return queue_.first(rank);
 }
 
 /// Hands the notes on, in batches, where they are not kept.

@@ -105,6 +105,8 @@ class EventLoopOf final : public EventLoop {
         std::array<std::uint32_t, kMostCandidates + 8> ids;
         std::array<std::uint8_t, kMostCandidates + 8> from;  // which of the cells
         std::array<CellCoordinates, 9> cells;
+        CellCoordinates first;  // where `width` is not 0, the cells are numbered from here row by row
+        std::int32_t width = 0;
     };
     struct Present {
         double x, y, vx, vy;
@@ -112,8 +114,9 @@ class EventLoopOf final : public EventLoop {
         double rounded_speed_squared;  ///< of the speeds that were rounded on the way here
     };
     [[nodiscard]] Present present(std::uint32_t i) const;
-    void bound_times(std::uint32_t i, const Present& a, Candidates& found) const;
+    [[nodiscard]] double bound_times(std::uint32_t i, const Present& a, Candidates& found) const;
     void consider_all(std::uint32_t i, const Present& place, Candidates& found, NextEvent& best) const;
+    bool gather_block(std::uint32_t i, CellCoordinates first, CellCoordinates last, Candidates& found) const;
     template <class F>
     void for_each_place(std::uint32_t i, CellCoordinates first, CellCoordinates last, F&& f) const;
     void scan_obstacles(std::uint32_t i, NextEvent& best) const;

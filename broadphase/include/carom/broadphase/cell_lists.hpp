@@ -14,6 +14,14 @@ namespace carom {
 /// blocks.
 class CellLists {
  public:
+    static constexpr std::int32_t kBlockSize = 6;
+    /// Half a cache line of ids: the first `count` are in the cell, more are in the block `next`, if >= 0.
+    struct Block {
+        std::int32_t count = 0;
+        std::int32_t next = -1;
+        std::array<std::uint32_t, kBlockSize> ids = {};
+    };
+
     CellLists() = default;
     explicit CellLists(std::size_t cells) : blocks_(cells) {}
 
@@ -52,8 +60,9 @@ class CellLists {
             for (std::int32_t k = 0; k < blocks_[b].count; ++k) f(blocks_[b].ids[k]);
     }
 
+    [[nodiscard]] const Block& first_block(std::int32_t cell) const { return blocks_[cell]; }
     /// Calls f(ids, count) for every block of a cell: the first `count` of the ids are in it.
-    static constexpr std::size_t kOverrun = 6;
+    static constexpr std::size_t kOverrun = kBlockSize;
     template <class F>
     void for_each_block(std::int32_t cell, F&& f) const {
         for (std::int32_t b = cell; b >= 0; b = blocks_[b].next)
@@ -61,13 +70,6 @@ class CellLists {
     }
 
  private:
-    static constexpr std::int32_t kBlockSize = kOverrun;
-    struct Block {  // half a cache line
-        std::int32_t count = 0;
-        std::int32_t next = -1;
-        std::array<std::uint32_t, kBlockSize> ids = {};
-    };
-
     std::uint32_t* find(std::int32_t cell, std::uint32_t id) {
         for (std::int32_t b = cell;; b = blocks_[b].next)
             for (std::int32_t k = 0; k < blocks_[b].count; ++k)

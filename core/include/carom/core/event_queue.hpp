@@ -76,14 +76,15 @@ class EventQueue {
     /// The id with the least key; of equals the one whose rank(id) is lowest.
     template <class Rank>
     [[nodiscard]] std::uint32_t first(Rank&& rank) const {
-        const auto id = static_cast<std::uint32_t>(root_ & id_mask_);
-        if (!is_shared(id)) return id;
-        std::uint32_t best = id;
-        for_each_close([&](std::uint32_t other) {
-            if (keys_[other] < keys_[best] || (keys_[other] == keys_[best] && rank(other) < rank(best)))
-                best = other;
-        });
-        return best;
+        const std::uint32_t id = front();
+        return is_shared(id) ? first_of_close(id, rank) : id;
+    }
+    /// An id with the least key. `may_be_tied` is set where more ids than one may have it, never left unset
+    /// where they do.
+    [[nodiscard]] std::uint32_t front(bool& may_be_tied) const {
+        const std::uint32_t id = front();
+        may_be_tied = is_shared(id);
+        return may_be_tied ? first_of_close(id, [](std::uint32_t k) { return k; }) : id;
     }
 
     /// Calls f(id) for every id whose key equals the least one. Costs their number.
@@ -94,9 +95,6 @@ class EventQueue {
             if (keys_[id] == least) f(id);
         });
     }
-
-    /// Whether more ids than one may have the least key: never false when there are.
-    [[nodiscard]] bool may_be_tied() const { return is_shared(static_cast<std::uint32_t>(root_ & id_mask_)); }
 
  private:
     static constexpr std::size_t kWidth = 16;
@@ -111,6 +109,16 @@ class EventQueue {
         for (std::size_t k = 0; k < kWidth / 2; ++k) least[k] = std::min(c[k], c[k + kWidth / 2]);
         for (std::size_t k = 0; k < kWidth / 4; ++k) least[k] = std::min(least[k], least[k + kWidth / 4]);
         return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+    }
+    [[nodiscard]] std::uint32_t front() const { return static_cast<std::uint32_t>(root_ & id_mask_); }
+    template <class Rank>
+    [[nodiscard]] std::uint32_t first_of_close(std::uint32_t id, Rank&& rank) const {
+        std::uint32_t best = id;
+        for_each_close([&](std::uint32_t other) {
+            if (keys_[other] < keys_[best] || (keys_[other] == keys_[best] && rank(other) < rank(best)))
+                best = other;
+        });
+        return best;
     }
     /// Whether another id agrees with the root's in the upper bits: it is a winner beside that one's path.
     [[nodiscard]] bool is_shared(std::uint32_t id) const {
