@@ -60,7 +60,8 @@ struct DomainState {
     std::vector<OverwrittenAnchor> overwritten;
     std::vector<std::uint32_t> last_overwritten;  ///< one a result
     std::vector<CollisionNote> notes;
-    std::size_t told = 0;  ///< so many of the notes lie in the past
+    std::vector<Collision> collisions;  ///< one a note where somebody listens
+    std::size_t told = 0;               ///< so many of the notes lie in the past
     std::uint64_t events = 0;
     std::uint64_t copied_collisions = 0;
 

@@ -28,9 +28,9 @@ class SerialEngine final : public Engine {
  public:
     SerialEngine(const Bodies& bodies, std::span<const Ball> balls, const Executor& executor)
         : Engine(bodies), executor_(executor), loop_(make_event_loop(bodies)) {
-        loop_->on_note = [this](const CollisionNote& note) {
+        loop_->on_note = [this](const CollisionNote& note, const Collision* collision) {
             count(note);
-            if (listener_) listener_(note.collision);
+            if (listener_ && collision != nullptr) listener_(*collision);
         };
         loop_->clear({bodies.grid, whole(bodies.grid.x), whole(bodies.grid.y), 0}, {});
         const BallExtra extra;

@@ -21,8 +21,8 @@ void EventLoop::clear(const Region& region, const Time& now) {
     events_at_once_ = 0;
     events = collisions_of_all = 0;
     const auto empty = [](auto&... tables) { (tables.clear(), ...); };
-    empty(records_, sides_, radius_, acceleration_, last_collision_, large_, notes, overwritten, visits,
-          visits_of_copies);
+    empty(records_, sides_, radius_, acceleration_, last_collision_, large_, notes, collisions, overwritten,
+          visits, visits_of_copies);
     if (!keeps_window) return;
     touched.assign(static_cast<std::size_t>(region.mark_count()), 0);
     // The domain's own cells are touched, and those beside them.

@@ -36,19 +36,19 @@
 
 namespace carom {
 
-/// A collision as the loop notes it; `collision` is filled in only where somebody listens.
+/// A collision as the loop notes it, enough to count it and to put it in order.
 struct CollisionNote {
     Time time;
     std::uint32_t lower = 0;   ///< id of the ball, the smaller of two moving ones
     std::uint32_t higher = 0;  ///< number of the other body
     bool is_wall = false;
     double virial = 0;
-    Collision collision;
 };
 
-/// An anchor that an event has overwritten, and the index of the one before it.
+/// What an event has overwritten of an anchor, and the index of what was before it. One cache line.
 struct OverwrittenAnchor {
-    Anchor anchor;
+    double x, y, vx, vy;
+    Time time;
     Periods periods;
     std::uint32_t previous = kNowhere;
 };
@@ -105,11 +105,13 @@ class EventLoop {
     /// The first broken rule of this file's head comment found for each ball.
     virtual void audit(std::vector<Violation>& found) const = 0;
 
-    bool listens = false;       ///< whether notes carry the whole collision
+    bool listens = false;       ///< whether collisions are kept in full
     bool keeps_notes = false;   ///< whether notes are kept rather than handed to `on_note`
     bool keeps_window = false;  ///< whether overwritten anchors and visits are kept
-    std::function<void(const CollisionNote&)> on_note;
+    std::function<void(const CollisionNote&, const Collision*)>
+        on_note;                                 ///< without the second unless it listens
     std::vector<CollisionNote> notes;            ///< of collisions that count here, in order
+    std::vector<Collision> collisions;           ///< the same in full, where the loop listens
     std::vector<OverwrittenAnchor> overwritten;  ///< of owned balls
     std::vector<Visit> visits;                   ///< of owned balls
     std::vector<Visit> visits_of_copies;

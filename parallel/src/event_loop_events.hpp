@@ -77,10 +77,15 @@ std::uint32_t EventLoopOf<A>::first_of_ties() {
 template <Acceleration A>
 void EventLoopOf<A>::pass_on_notes() {
     if (keeps_notes) return;
-    const std::vector<CollisionNote> batch = std::exchange(notes, {});
-    for (const CollisionNote& n : batch) on_note(n);
-    notes = std::move(const_cast<std::vector<CollisionNote>&>(batch));
-    notes.clear();
+    // Taken out first: whoever is told may ask for an end of it.
+    std::vector<CollisionNote> batch = std::exchange(notes, {});
+    std::vector<Collision> batch_in_full = std::exchange(collisions, {});
+    const bool is_full = batch_in_full.size() == batch.size();
+    for (std::size_t k = 0; k < batch.size(); ++k) on_note(batch[k], is_full ? &batch_in_full[k] : nullptr);
+    batch.clear();
+    batch_in_full.clear();
+    notes = std::move(batch);
+    collisions = std::move(batch_in_full);
 }
 
 /// Many balls may meet at one instant, in a row of touching balls (N / 2)^2 times; what goes on has no end.
@@ -181,7 +186,8 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     const Vec2 x = position_at(m, since);
     const Vec2 v = velocity_at(m, since);
     if (keeps_window && is_owned(i)) {
-        overwritten.push_back({a, records_[i].periods, sides_[i].last_overwritten});
+        overwritten.push_back(
+            {a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, sides_[i].last_overwritten});
         sides_[i].last_overwritten = static_cast<std::uint32_t>(overwritten.size() - 1);
     }
     const Grid& grid = bodies_.grid;
@@ -371,14 +377,14 @@ void EventLoopOf<A>::note(const Time& t, CollisionKind kind, std::uint32_t i, st
     if (listens) {
         const Vec2 point = Vec2(records_[i].anchor.x, records_[i].anchor.y) - radius_of(i) * normal;
         std::int32_t ignored = 0;
-        n.collision = {
-            clock_.to_seconds(t),
-            kind,
-            records_[i].id,
-            kind == CollisionKind::kWall ? partner - bodies_.count : partner,
-            {bodies_.grid.x.wrapped(point.x(), ignored), bodies_.grid.y.wrapped(point.y(), ignored)},
-            normal,
-            impulse};
+        collisions.push_back(
+            {clock_.to_seconds(t),
+             kind,
+             records_[i].id,
+             kind == CollisionKind::kWall ? partner - bodies_.count : partner,
+             {bodies_.grid.x.wrapped(point.x(), ignored), bodies_.grid.y.wrapped(point.y(), ignored)},
+             normal,
+             impulse});
     }
     constexpr std::size_t kBatch = 1024;
     if (!keeps_notes && notes.size() >= kBatch) pass_on_notes();

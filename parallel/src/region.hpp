@@ -31,6 +31,7 @@ class RegionAxis {
             reach_ = is_window_ ? Span{own.first - halo, own.last + halo} : Span{0, count_};
             size_ = static_cast<std::int32_t>(reach_.size());
             periodic_ = true;
+            start_ = folded(reach_.first, count_);
         } else {
             reach_ = {own.first <= -kFarthest ? -kFarthest : own.first - halo,
                       own.last >= kFarthest ? kFarthest : own.last + halo};
@@ -99,7 +100,16 @@ class RegionAxis {
         return static_cast<std::uint32_t>(in) < static_cast<std::uint32_t>(size_) ? in : folded(in, size_);
     }
 
+    /// Whether the region has a cell whose coordinate is folded into the box already.
+    [[nodiscard]] bool covers(std::int32_t k) const {
+        if (!is_window_) return periodic_ || reach_.contains(k);
+        const std::int32_t in = k - start_;
+        return (in < 0 ? in + count_ : in) < size_;
+    }
+
     [[nodiscard]] static std::int32_t folded(std::int32_t k, std::int32_t count) {
+        if (static_cast<std::uint32_t>(k) < static_cast<std::uint32_t>(count)) return k;
+        if (k < 0 && k >= -count) return k + count;
         const std::int32_t rest = k % count;
         return rest < 0 ? rest + count : rest;
     }
@@ -110,6 +120,7 @@ class RegionAxis {
     std::int32_t count_ = 1;  // cells of the whole axis
     std::int32_t size_ = 1;
     std::int32_t base_ = 0;
+    std::int32_t start_ = 0;  // of `reach_`, folded
     bool periodic_ = false;
     bool is_window_ = false;  // periodic, and not the whole axis
 };

@@ -182,9 +182,9 @@ void WindowedEngine::pack(std::uint32_t from, const Region& region, std::vector<
     if (!region.x.meets(source.cells_x) || !region.y.meets(source.cells_y)) return;
     for (std::uint32_t k = 0; k < source.records.size(); ++k) {
         CellCoordinates c = source.cells[k];
+        if (!region.x.covers(c.x) || !region.y.covers(c.y)) continue;
         c.x += region.x.frame_of(c.x);
         c.y += region.y.frame_of(c.y);
-        if (!region.x.contains(c.x) || !region.y.contains(c.y)) continue;
         BallMessage& ball = message.emplace_back();
         ball.record = source.records[k];
         if (!source.extras.empty()) ball.extra = source.extras[k];
@@ -254,6 +254,7 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     d.told = 0;
     std::swap(d.overwritten, loop.overwritten);
     std::swap(d.notes, loop.notes);
+    std::swap(d.collisions, loop.collisions);
     std::swap(d.touched, loop.touched);
     d.events = loop.events;
     d.copied_collisions =
@@ -345,6 +346,7 @@ void WindowedEngine::run_together(const Time& window_end, bool inclusive) {
         d.last_overwritten.clear();
         d.overwritten.clear();
         d.notes.clear();
+        d.collisions.clear();
         d.told = 0;
         d.events = d.copied_collisions = 0;
     }
@@ -366,6 +368,7 @@ void WindowedEngine::run_together(const Time& window_end, bool inclusive) {
         d.last_overwritten.push_back(last);
     }
     std::swap(domains_.front().notes, loop.notes);
+    std::swap(domains_.front().collisions, loop.collisions);
     domains_.front().events = loop.events;
 }
 
@@ -468,17 +471,18 @@ void WindowedEngine::advance_to(const Time& end, const Time& horizon) {
 }
 
 void WindowedEngine::tell_until(const Time& end) {
-    std::vector<const CollisionNote*> told;
+    std::vector<std::pair<const CollisionNote*, const Collision*>> told;
     for (DomainState& d : domains_) {
         for (; d.told < d.notes.size() && d.notes[d.told].time <= end; ++d.told) {
             count(d.notes[d.told]);
-            if (listener_) told.push_back(&d.notes[d.told]);
+            if (listener_) told.emplace_back(&d.notes[d.told], &d.collisions[d.told]);
         }
     }
-    if (!listener_) return;
-    const auto order = [](const CollisionNote* n) { return std::tuple(n->time, n->lower, n->higher); };
+    const auto order = [](const auto& n) {
+        return std::tuple(n.first->time, n.first->lower, n.first->higher);
+    };
     std::ranges::stable_sort(told, {}, order);
-    for (const CollisionNote* n : told) listener_(n->collision);
+    for (const auto& [note, collision] : told) listener_(*collision);
 }
 
 void WindowedEngine::renew_field(const Time& t) {
@@ -493,16 +497,17 @@ void WindowedEngine::read(const Time& t, std::span<BallState> states) const {
         const std::vector<BallRecord>& records = in_window_ ? d.results : d.records;
         const std::vector<BallExtra>& extras = in_window_ ? d.result_extras : d.extras;
         for (std::size_t i = 0; i < records.size(); ++i) {
-            const Anchor* anchor = &records[i].anchor;
-            const Periods* periods = &records[i].periods;
+            Anchor anchor = records[i].anchor;
+            Periods periods = records[i].periods;
             if (in_window_) {
-                for (std::uint32_t o = d.last_overwritten[i]; anchor->time > t && o != kNowhere;
+                for (std::uint32_t o = d.last_overwritten[i]; anchor.time > t && o != kNowhere;
                      o = d.overwritten[o].previous) {
-                    anchor = &d.overwritten[o].anchor;
-                    periods = &d.overwritten[o].periods;
+                    const OverwrittenAnchor& before = d.overwritten[o];
+                    anchor = {before.x, before.y, before.vx, before.vy, before.time, 0, 0, {}};
+                    periods = before.periods;
                 }
             }
-            states[records[i].id] = state_at(bodies_, *anchor, *periods,
+            states[records[i].id] = state_at(bodies_, anchor, periods,
                                              extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, t);
         }
     });
@@ -527,7 +532,10 @@ void WindowedEngine::rewind_to_now() {
     if (!in_window_) return;
     // The window again, up to now only; its events are counted and told already.
     run_together(now_, true);
-    for (DomainState& d : domains_) d.notes.clear();
+    for (DomainState& d : domains_) {
+        d.notes.clear();
+        d.collisions.clear();
+    }
     window_end_ = now_;
     window_is_closed_ = true;
 }
