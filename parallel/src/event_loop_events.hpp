@@ -250,8 +250,6 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
         std::swap(i, j);
         image = -image;
     }
-    remember(i, t, ids_[j]);
-    remember(j, t, ids_[i]);
     const Image wrapped_i = advance(i, t);
     const Image wrapped_j = advance(j, t);
     image = {image.x - wrapped_i.x + wrapped_j.x, image.y - wrapped_i.y + wrapped_j.y};
@@ -275,6 +273,8 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     a.vy = after.a.y();
     b.vx = after.b.x();
     b.vy = after.b.y();
+    remember(i, t, ids_[j]);
+    remember(j, t, ids_[i]);
     const double distance = std::sqrt(length_squared(r));
     ++collisions_of_all;
     if (is_owned(i)) note(t, CollisionKind::kBall, i, ids_[j], r / distance, impulse, impulse * distance);
@@ -289,7 +289,6 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
 
 template <Acceleration A>
 void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
-    remember(i, event.time, event.partner);
     const Image wrapped = advance(i, event.time);
     const Image image = {event.image_x - wrapped.x, event.image_y - wrapped.y};
     Anchor& a = anchors_[i];
@@ -332,6 +331,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     if (factor != 1) after *= factor;
     a.vx = after.x();
     a.vy = after.y();
+    remember(i, event.time, event.partner);
     const double impulse = bodies_.mass.of(ids_[i]) * dot<double>(after - before, normal) / length;
     ++collisions_of_all;
     if (is_owned(i))
@@ -343,12 +343,19 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     expect(i, search(i));
 }
 
-/// Adds an event to a ball's history: two balls with equal histories since one state have done the same.
+/// Adds an event to a ball's history: two balls with equal histories since one state have done the same. The
+/// velocity after it belongs there: balls that touch meet at a time that does not tell how fast they were.
 template <Acceleration A>
 void EventLoopOf<A>::remember(std::uint32_t i, const Time& t, std::uint32_t partner) {
     if (!keeps_window) return;
-    std::uint64_t h = histories_[i] ^ std::bit_cast<std::uint64_t>(t.offset);
-    h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL + partner;
+    std::uint64_t h = histories_[i];
+    const auto fold = [&h](std::uint64_t bits, std::uint64_t more) {
+        h ^= bits;
+        h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL + more;
+    };
+    fold(std::bit_cast<std::uint64_t>(t.offset), partner);
+    fold(std::bit_cast<std::uint64_t>(anchors_[i].vx), 0);
+    fold(std::bit_cast<std::uint64_t>(anchors_[i].vy), 0);
     histories_[i] = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL;
 }
 
