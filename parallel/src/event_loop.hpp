@@ -38,8 +38,10 @@ namespace carom {
 /// A collision as the loop notes it; `collision` is filled in only where somebody listens.
 struct CollisionNote {
     Time time;
-    std::uint32_t lower = 0;   ///< id of the ball, the smaller of two moving ones
-    std::uint32_t higher = 0;  ///< number of the other body
+    std::uint32_t lower = 0;         ///< id of the ball, the smaller of two moving ones
+    std::uint32_t higher = 0;        ///< number of the other body
+    std::uint32_t lower_stamp = 0;   ///< of the ball before it
+    std::uint32_t higher_stamp = 0;  ///< of the other one, where it moves
     bool is_wall = false;
     double virial = 0;
     Collision collision;

@@ -277,7 +277,8 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     remember(j, t, ids_[i]);
     const double distance = std::sqrt(length_squared(r));
     ++collisions_of_all;
-    if (is_owned(i)) note(t, CollisionKind::kBall, i, ids_[j], r / distance, impulse, impulse * distance);
+    if (is_owned(i))
+        note(t, CollisionKind::kBall, i, ids_[j], b.stamp, r / distance, impulse, impulse * distance);
     if (bodies_.physics.contact_time > 0) last_collision_[i] = last_collision_[j] = t;
     settle(i);
     settle(j);
@@ -335,7 +336,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     const double impulse = bodies_.mass.of(ids_[i]) * dot<double>(after - before, normal) / length;
     ++collisions_of_all;
     if (is_owned(i))
-        note(event.time, is_ball ? CollisionKind::kBall : CollisionKind::kWall, i, event.partner,
+        note(event.time, is_ball ? CollisionKind::kBall : CollisionKind::kWall, i, event.partner, 0,
              normal / length, impulse, is_ball ? impulse * length : 0.0);
     if (bodies_.physics.contact_time > 0) last_collision_[i] = event.time;
     settle(i);
@@ -361,11 +362,13 @@ void EventLoopOf<A>::remember(std::uint32_t i, const Time& t, std::uint32_t part
 
 template <Acceleration A>
 void EventLoopOf<A>::note(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t partner,
-                          const Vec2& normal, double impulse, double virial) {
+                          std::uint32_t partner_stamp, const Vec2& normal, double impulse, double virial) {
     CollisionNote& n = notes.emplace_back();
     n.time = t;
     n.lower = ids_[i];
     n.higher = partner;
+    n.lower_stamp = anchors_[i].stamp;
+    n.higher_stamp = partner_stamp;
     n.is_wall = kind == CollisionKind::kWall;
     n.virial = virial;
     if (listens) {

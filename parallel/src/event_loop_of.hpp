@@ -154,8 +154,8 @@ class EventLoopOf final : public EventLoop {
     }
     [[nodiscard]] double restitution_at(double restitution, std::uint32_t i, std::uint32_t j,
                                         const Time& t) const;
-    void note(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t partner, const Vec2& normal,
-              double impulse, double virial);
+    void note(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t partner,
+              std::uint32_t partner_stamp, const Vec2& normal, double impulse, double virial);
     void remember(std::uint32_t i, const Time& t, std::uint32_t partner);
 };
 

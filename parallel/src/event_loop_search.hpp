@@ -399,7 +399,8 @@ void EventLoopOf<A>::expect(std::uint32_t i, const NextEvent& event) {
         NextEvent& theirs = next_[j];
         if (theirs.partner == ids_[i] && theirs.time == event.time && !asleep_[j] &&
             theirs.stamp == anchors_[i].stamp && theirs.image_x == -event.image_x &&
-            theirs.image_y == -event.image_y && clock_.since_epoch(event.time, epoch_) <= ends_[j]) {
+            theirs.image_y == -event.image_y && clock_.since_epoch(event.time, epoch_) <= ends_[j] &&
+            !(simultaneous_ && ids_[i] < ids_[j])) {
             theirs.local = i;
             asleep_[i] = 1;
         }
@@ -427,21 +428,46 @@ void EventLoopOf<A>::lose(std::uint32_t i) {
     schedule(i);
 }
 
-/// Where many events share one instant their order counts: then a pair's event is known to its smaller id.
+/// Where many events share one instant their order counts: then every event that ball i has now is known to
+/// the smaller id of its pair, not the first one only.
 template <Acceleration A>
 void EventLoopOf<A>::tell_lower(std::uint32_t i) {
-    const NextEvent event = next_[i];
-    const std::uint32_t j = event.local;
-    if (j == kNowhere || event.partner > ids_[i] || anchors_[j].stamp != event.stamp) return;
-    const NextEvent theirs{event.time, ids_[i], anchors_[i].stamp, -event.image_x, -event.image_y, i};
-    if (precedes(theirs, next_[j], j)) {
-        wake_partner(j);
-        next_[j] = theirs;
-    } else if (!asleep_[j] || next_[j].local != i) {
-        return;
+    const auto tell = [this, i](std::uint32_t j, const NextEvent& event) {
+        const NextEvent theirs{event.time, ids_[i], anchors_[i].stamp, -event.image_x, -event.image_y, i};
+        if (precedes(theirs, next_[j], j)) {
+            wake_partner(j);
+            next_[j] = theirs;
+        } else if (!asleep_[j] || next_[j].local != i) {
+            return;
+        }
+        asleep_[j] = 0;
+        schedule(j);
+    };
+    const auto tell_if_now = [this, i, &tell](std::uint32_t j, const NextEvent& event) {
+        if (event.local == j && clock_.since_epoch(event.time, epoch_) == now_) tell(j, event);
+    };
+    if (const NextEvent event = next_[i];
+        event.local != kNowhere && event.partner < ids_[i] && anchors_[event.local].stamp == event.stamp)
+        tell(event.local, event);
+    const CellCoordinates c = anchors_[i].cell;
+    for (std::int32_t y = c.y - 1; y <= c.y + 1; ++y) {
+        for (std::int32_t x = c.x - 1; x <= c.x + 1; ++x) {
+            const std::int32_t place = place_of(i, {x, y});
+            if (place < 0) continue;
+            cells_.for_each(place, [&](std::uint32_t j) {
+                if (ids_[j] >= ids_[i]) return;
+                NextEvent event;
+                consider_listed(i, j, {x, y}, event);
+                tell_if_now(j, event);
+            });
+        }
     }
-    asleep_[j] = 0;
-    schedule(j);
+    for (const std::uint32_t j : large_) {
+        if (ids_[j] >= ids_[i]) continue;
+        NextEvent event;
+        consider_images(i, j, event);
+        tell_if_now(j, event);
+    }
 }
 
 template <Acceleration A>

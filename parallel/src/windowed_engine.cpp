@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <queue>
 #include <stdexcept>
 #include <tuple>
 
@@ -451,9 +452,53 @@ void WindowedEngine::tell_until(const Time& end) {
         }
     }
     if (!listener_) return;
-    const auto order = [](const CollisionNote* n) { return std::tuple(n->time, n->lower, n->higher); };
-    std::ranges::stable_sort(told, {}, order);
+    std::ranges::stable_sort(told, {}, &CollisionNote::time);
+    for (auto first = told.begin(); first != told.end();) {
+        const auto last = std::find_if(first, told.end(),
+                                       [first](const CollisionNote* n) { return n->time != (*first)->time; });
+        if (last - first > 1) order_simultaneous({first, last});
+        first = last;
+    }
     for (const CollisionNote* n : told) listener_(n->collision);
+}
+
+/// Collisions at one instant in the order in which a single loop has them: always the smallest ids whose
+/// balls have had all that came to them before. One collision may bring about the next, so that the ids alone
+/// do not tell.
+void WindowedEngine::order_simultaneous(std::span<const CollisionNote*> notes) const {
+    struct Use {
+        std::uint32_t ball, stamp;
+        std::size_t note;
+    };
+    std::vector<Use> uses;
+    for (std::size_t k = 0; k < notes.size(); ++k) {
+        const CollisionNote& n = *notes[k];
+        uses.push_back({n.lower, n.lower_stamp, k});
+        if (!n.is_wall && !bodies_.fixes(n.higher)) uses.push_back({n.higher, n.higher_stamp, k});
+    }
+    std::ranges::sort(uses, {}, [](const Use& u) { return std::tuple(u.ball, u.stamp); });
+    std::vector<int> waits_for(notes.size(), 0);
+    std::vector<std::vector<std::size_t>> lets_go(notes.size());
+    for (std::size_t u = 1; u < uses.size(); ++u) {
+        if (uses[u].ball != uses[u - 1].ball) continue;
+        lets_go[uses[u - 1].note].push_back(uses[u].note);
+        ++waits_for[uses[u].note];
+    }
+    const auto comes_later = [&notes](std::size_t a, std::size_t b) {
+        return std::tuple(notes[a]->lower, notes[a]->higher) > std::tuple(notes[b]->lower, notes[b]->higher);
+    };
+    std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(comes_later)> ready(comes_later);
+    for (std::size_t k = 0; k < notes.size(); ++k)
+        if (waits_for[k] == 0) ready.push(k);
+    std::vector<const CollisionNote*> ordered;
+    while (!ready.empty()) {
+        const std::size_t k = ready.top();
+        ready.pop();
+        ordered.push_back(notes[k]);
+        for (const std::size_t next : lets_go[k])
+            if (--waits_for[next] == 0) ready.push(next);
+    }
+    std::ranges::copy(ordered, notes.begin());
 }
 
 void WindowedEngine::renew_field(const Time& t) {

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "domain_state.hpp"
@@ -48,6 +49,7 @@ class WindowedEngine final : public Engine {
     void commit();
     void rewind_to_now();
     void tell_until(const Time& end);
+    void order_simultaneous(std::span<const CollisionNote*> notes) const;
     void tune(double length, bool agreed);
 
     const Executor& executor_;
