@@ -26,6 +26,16 @@ constexpr int kMostShortenings = 5;
 constexpr double kUneven = 1.5;
 constexpr int kWindowsBetweenSplits = 16;
 
+/// The halo of a domain that runs again.
+constexpr std::int32_t widened(std::int32_t halo) {
+    return halo + halo / 2 + 1;
+}
+/// The widest that a domain may come to.
+constexpr std::int32_t widest(std::int32_t halo) {
+    for (int repair = 0; repair < kMostRepairs; ++repair) halo = widened(halo);
+    return halo;
+}
+
 CellCoordinates fold_periodic(const Grid& grid, const CellCoordinates& c) {
     return {grid.x.periodic() ? grid.x.fold(c.x) : c.x, grid.y.periodic() ? grid.y.fold(c.y) : c.y};
 }
@@ -248,10 +258,10 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     }
     for (const Visit& v : loop.visits_of_copies)
         d.copy_visits.push_back({copy_of[v.ball], d.region.mark(v.cell)});
-    // Other domains reach no further into this one than their halo.
+    // Other domains reach no further into this one than their halo, be it widened after this run.
+    const std::int32_t reach = widest(halo_);
     for (const Visit& v : loop.visits)
-        if (!d.region.x.is_deep_inside(v.cell.x, 2 * halo_) ||
-            !d.region.y.is_deep_inside(v.cell.y, 2 * halo_))
+        if (!d.region.x.is_deep_inside(v.cell.x, reach) || !d.region.y.is_deep_inside(v.cell.y, reach))
             d.visits.push_back({w.origins[v.ball], fold_periodic(bodies_.grid, v.cell)});
 }
 
@@ -299,7 +309,7 @@ bool WindowedEngine::try_window(const Time& window_end, bool inclusive) {
         counts_.window_retries += disagreeing;
         if (round == kMostRepairs || 4 * disagreeing > 3 * domains_.size() + 4) return false;
         for (std::size_t d = 0; d < domains_.size(); ++d)
-            if (runs[d]) domains_[d].halo += domains_[d].halo / 2 + 1;
+            if (runs[d]) domains_[d].halo = widened(domains_[d].halo);
     }
 }
 
