@@ -15,6 +15,9 @@ constexpr std::int32_t kHalo = 8;  // cells
 static const std::int32_t kKept = getenv("KEPT") ? atoi(getenv("KEPT")) : 4;
 // The first window's share of an epoch; the next ones follow the collisions that it had.
 constexpr double kFirstWindow = 1.0 / 256;
+// The least window's share of an epoch: what cannot be cut finer, a row of touching balls that is hit at one
+// end, goes through one loop, and time goes on.
+constexpr double kLeastWindow = 0x1p-30;
 // How the collisions a ball aimed at in a window grow while all agrees, and shrink when it does not.
 constexpr double kGrowth = 1.01;
 constexpr double kShrinkage = 0.8;
@@ -103,7 +106,7 @@ void WindowedEngine::split(std::vector<BallRecord> records, std::vector<BallExtr
     std::vector<CellCoordinates> cells;
     cells.reserve(records.size());
     for (const BallRecord& r : records) cells.push_back(fold_periodic(bodies_.grid, r.anchor.cell));
-    const auto extent = [&cells](std::int32_t CellCoordinates::* axis) {
+    const auto extent = [&cells](std::int32_t CellCoordinates::*axis) {
         const auto [low, high] = std::ranges::minmax(cells, {}, axis);
         return Span{low.*axis, high.*axis + 1};
     };
@@ -409,17 +412,19 @@ void WindowedEngine::commit() {
 void WindowedEngine::next_window(const Time& horizon) {
     const Clock& clock = bodies_.physics.clock;
     commit();
+    const double least = clock.epoch_length() * kLeastWindow;
     for (int shortenings = 0;; ++shortenings) {
+        const bool gives_up = shortenings > kMostShortenings || (shortenings > 0 && window_length_ <= least);
         Time end = clock.after(window_start_, window_length_);
         if (end.epoch > window_start_.epoch) end = {window_start_.epoch + 1, 0};
         window_is_closed_ = end >= horizon;
         if (window_is_closed_) end = horizon;
         const double length = clock.difference(end, window_start_);
-        const bool agreed = shortenings <= kMostShortenings && try_window(end, window_is_closed_);
-        if (!agreed && shortenings > kMostShortenings) run_together(end, window_is_closed_);
+        const bool agreed = !gives_up && try_window(end, window_is_closed_);
+        if (gives_up) run_together(end, window_is_closed_);
         counts_.windows += domains_.size();
         tune(length, agreed);
-        if (!agreed && shortenings <= kMostShortenings) continue;
+        if (!agreed && !gives_up) continue;
         window_end_ = end;
         in_window_ = true;
         return;
@@ -430,15 +435,17 @@ void WindowedEngine::next_window(const Time& horizon) {
 void WindowedEngine::tune(double length, bool agreed) {
     if (!agreed) {
         target_ = std::max(kLeastTarget, target_ * kShrinkage);
-        window_length_ = length / 2;
+        const double least = bodies_.physics.clock.epoch_length() * kLeastWindow;
+        window_length_ = std::max(length / 2, least);
         return;
     }
+    // One that an epoch's end or the field has cut short tells little.
+    if (length < window_length_ / 2) return;
     target_ = std::min(kMostTarget, target_ * kGrowth);
     double collisions = 0;
     for (const DomainState& d : domains_) collisions += double(d.notes.size());
     const double a_ball = 2 * collisions / std::max(1.0, double(bodies_.moving));
     const double wanted = a_ball > 0 ? length * target_ / a_ball : 2 * length;
-    // A window that an epoch's end or the field has cut short is no reason to hurry.
     window_length_ = std::clamp(wanted, length / 2, std::max(2 * length, window_length_));
 }
 
