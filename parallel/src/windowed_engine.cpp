@@ -106,7 +106,7 @@ void WindowedEngine::split(std::vector<BallRecord> records, std::vector<BallExtr
     std::vector<CellCoordinates> cells;
     cells.reserve(records.size());
     for (const BallRecord& r : records) cells.push_back(fold_periodic(bodies_.grid, r.anchor.cell));
-    const auto extent = [&cells](std::int32_t CellCoordinates::*axis) {
+    const auto extent = [&cells](std::int32_t CellCoordinates::* axis) {
         const auto [low, high] = std::ranges::minmax(cells, {}, axis);
         return Span{low.*axis, high.*axis + 1};
     };
@@ -433,9 +433,9 @@ void WindowedEngine::next_window(const Time& horizon) {
 
 /// Aims the next window at a number of collisions a ball that the halo stands.
 void WindowedEngine::tune(double length, bool agreed) {
+    const double least = bodies_.physics.clock.epoch_length() * kLeastWindow;
     if (!agreed) {
         target_ = std::max(kLeastTarget, target_ * kShrinkage);
-        const double least = bodies_.physics.clock.epoch_length() * kLeastWindow;
         window_length_ = std::max(length / 2, least);
         return;
     }
@@ -446,7 +446,7 @@ void WindowedEngine::tune(double length, bool agreed) {
     for (const DomainState& d : domains_) collisions += double(d.notes.size());
     const double a_ball = 2 * collisions / std::max(1.0, double(bodies_.moving));
     const double wanted = a_ball > 0 ? length * target_ / a_ball : 2 * length;
-    window_length_ = std::clamp(wanted, length / 2, std::max(2 * length, window_length_));
+    window_length_ = std::max(least, std::clamp(wanted, length / 2, std::max(2 * length, window_length_)));
 }
 
 // ---- As the world sees it

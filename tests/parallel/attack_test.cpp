@@ -161,5 +161,18 @@ int main() {
             attack(std::string("touching lattice ") + n + std::to_string(seed), t, 1, {2, 3}, {0, 3});
         }
     for (auto& [name, s] : feature_scenes()) { attack("feature " + name, s, 4); attack("feature frames " + name, s, 2, {2, 7}, {0, 1, 3}, 0.0937); }
+    for (int seed = 0; seed < 12; ++seed) {  // attractors, losses, mixed sizes, gravity; irregular frames
+        std::mt19937_64 r(900 + seed);
+        const auto b = [&] { return std::array{kWall, kOpen, kPer}[r() % 3]; };
+        const Boundary bx = b(), by = b();
+        Scene s = gas(500 + seed, {.count = 300, .packing = uniform(r, 0.05, 0.6), .boundary_x = bx, .boundary_y = by, .restitution = seed % 2 ? 0.8 : 1, .radius_spread = seed % 3 ? 0.4 : 0, .speed = 3});
+        const double side = s.domain->box.max.x();
+        if (seed % 4 != 3) { s.attractors = {{{side * .3, side * .4}, 40, 2}, {{side * .8, side * .7}, -15, 1}}; s.field_interval = uniform(r, 0.01, 0.2); }
+        if (seed % 2) s.gravity = {0.2, -2};
+        for (std::size_t i = 0; i < s.balls.size(); i += 1 + r() % 30) s.balls[i].velocity *= 20;
+        s.until = 10;
+        attack("Z mix " + std::to_string(seed), s, 3);
+        attack("Z mix frames " + std::to_string(seed), s, 2, {2, 3, 7}, {0, 1, 3}, uniform(r, 0.005, 0.3));
+    }
     printf("%d processes bad\n", bad);
 }
