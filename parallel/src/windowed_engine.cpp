@@ -409,7 +409,8 @@ void WindowedEngine::commit() {
         split_anew();
 }
 
-void WindowedEngine::next_window(const Time& horizon) {
+/// One window more, on the way to `wanted` or beyond it.
+void WindowedEngine::next_window(const Time& wanted, const Time& horizon) {
     const Clock& clock = bodies_.physics.clock;
     commit();
     const double least = clock.epoch_length() * kLeastWindow;
@@ -421,7 +422,15 @@ void WindowedEngine::next_window(const Time& horizon) {
         if (window_is_closed_) end = horizon;
         const double length = clock.difference(end, window_start_);
         const bool agreed = !gives_up && try_window(end, window_is_closed_);
-        if (gives_up) run_together(end, window_is_closed_);
+        try {
+            if (gives_up) run_together(end, window_is_closed_);
+        } catch (const std::runtime_error&) {
+            if (end <= wanted) throw;
+            // What cannot go on lies ahead of the time that is asked for, and is no fault yet.
+            end = wanted;
+            window_is_closed_ = true;
+            run_together(end, window_is_closed_);
+        }
         counts_.windows += domains_.size();
         tune(length, agreed);
         if (!agreed && !gives_up) continue;
@@ -454,7 +463,7 @@ void WindowedEngine::tune(double length, bool agreed) {
 void WindowedEngine::advance_to(const Time& end, const Time& horizon) {
     while (!in_window_ || window_end_ < end || (window_end_ == end && !window_is_closed_)) {
         if (in_window_) tell_until(window_end_);
-        next_window(horizon);
+        next_window(end, horizon);
     }
     tell_until(end);
     now_ = end;

@@ -45,7 +45,7 @@ class WindowedEngine final : public Engine {
     [[nodiscard]] bool try_window(const Time& window_end, bool inclusive);
     void run_together(const Time& window_end, bool inclusive);
     void predict_anew(bool renews_field);
-    void next_window(const Time& horizon);
+    void next_window(const Time& wanted, const Time& horizon);
     void commit();
     void rewind_to_now();
     void tell_until(const Time& end);

@@ -161,6 +161,13 @@ int main() {
             attack(std::string("touching lattice ") + n + std::to_string(seed), t, 1, {2, 3}, {0, 3});
         }
     for (auto& [name, s] : feature_scenes()) { attack("feature " + name, s, 4); attack("feature frames " + name, s, 2, {2, 7}, {0, 1, 3}, 0.0937); }
+    {
+        Scene w = box(10, 10, kWall, kWall);
+        w.gravity = {0, -1};
+        w.balls = {ball(5, 0.5, 1, 0), ball(2, 7, 1, 0)};
+        w.walls = {{{0, 1}, {10, 1}, 1}};
+        attack("W wedged", w, 1, {2}, {0});
+    }
     for (int seed = 0; seed < 12; ++seed) {  // attractors, losses, mixed sizes, gravity; irregular frames
         std::mt19937_64 r(900 + seed);
         const auto b = [&] { return std::array{kWall, kOpen, kPer}[r() % 3]; };
