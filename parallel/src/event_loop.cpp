@@ -28,14 +28,14 @@ void EventLoop::clear(const Region& region, const Time& now) {
     // The domain's own cells are touched, and those beside them.
     const auto own_marks = [](const RegionAxis& axis) {
         std::vector<std::int32_t> marks;
-        for (std::int32_t m = 0; m < axis.size() + 2; ++m)
+        for (std::int32_t m = 0; m < axis.mark_count(); ++m)
             if (axis.depth(axis.marked(m)) <= 1) marks.push_back(m);
         return marks;
     };
     const std::vector<std::int32_t> columns = own_marks(region.x);
     for (const std::int32_t y : own_marks(region.y))
         for (const std::int32_t x : columns)
-            touched[static_cast<std::size_t>(y * (region.x.size() + 2) + x)] = 1;
+            touched[static_cast<std::size_t>(y * region.x.mark_count() + x)] = 1;
 }
 
 void EventLoop::reserve(std::size_t balls) {

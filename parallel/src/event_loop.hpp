@@ -39,8 +39,10 @@ namespace carom {
 /// A collision as the loop notes it, enough to count it and to put it in order.
 struct CollisionNote {
     Time time;
-    std::uint32_t lower = 0;   ///< id of the ball, the smaller of two moving ones
-    std::uint32_t higher = 0;  ///< number of the other body
+    std::uint32_t lower = 0;         ///< id of the ball, the smaller of two moving ones
+    std::uint32_t higher = 0;        ///< number of the other body
+    std::uint32_t lower_stamp = 0;   ///< of the ball before it
+    std::uint32_t higher_stamp = 0;  ///< of the other one, where it moves
     bool is_wall = false;
     double virial = 0;
 };
@@ -105,8 +107,11 @@ class EventLoop {
     /// The first broken rule of this file's head comment found for each ball.
     virtual void audit(std::vector<Violation>& found) const = 0;
 
-    bool listens = false;       ///< whether collisions are kept in full
-    bool keeps_notes = false;   ///< whether notes are kept rather than handed to `on_note`
+    bool listens = false;      ///< whether collisions are kept in full
+    bool keeps_notes = false;  ///< whether notes are kept rather than handed to `on_note`
+    /// Whether a ball without room to move is an error only after very many events at one instant; else the
+    /// loop fails after a few.
+    bool is_patient = true;
     bool keeps_window = false;  ///< whether overwritten anchors and visits are kept
     std::function<void(const CollisionNote&, const Collision*)>
         on_note;                                 ///< without the second unless it listens

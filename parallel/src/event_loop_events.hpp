@@ -39,6 +39,10 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
             events_at_once_ = 0;
             simultaneous_ = false;
         } else if (++events_at_once_ > most_events_at_once()) {
+            if (!is_patient) {
+                failed_ = true;
+                return;
+            }
             refuse_wedged(i);
         }
         if (may_be_tied) i = first_of_ties();
@@ -261,8 +265,6 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
         std::swap(i, j);
         image = -image;
     }
-    remember(i, t, records_[j].id);
-    remember(j, t, records_[i].id);
     const Image wrapped_i = advance(i, t);
     const Image wrapped_j = advance(j, t);
     image = {image.x - wrapped_i.x + wrapped_j.x, image.y - wrapped_i.y + wrapped_j.y};
@@ -287,10 +289,12 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     a.vy = after.a.y();
     b.vx = after.b.x();
     b.vy = after.b.y();
+    remember(i, t, records_[j].id);
+    remember(j, t, records_[i].id);
     const double distance = std::sqrt(length_squared(r));
     ++collisions_of_all;
     if (is_owned(i))
-        note(t, CollisionKind::kBall, i, records_[j].id, r / distance, impulse, impulse * distance);
+        note(t, CollisionKind::kBall, i, records_[j].id, b.stamp, r / distance, impulse, impulse * distance);
     if (bodies_.physics.contact_time > 0) last_collision_[i] = last_collision_[j] = t;
     settle(i);
     settle(j);
@@ -302,7 +306,6 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
 
 template <Acceleration A>
 void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
-    remember(i, event.time, event.partner);
     const Image wrapped = advance(i, event.time);
     const Image image = {event.image_x - wrapped.x, event.image_y - wrapped.y};
     Anchor& a = records_[i].anchor;
@@ -345,10 +348,11 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     if (factor != 1) after *= factor;
     a.vx = after.x();
     a.vy = after.y();
+    remember(i, event.time, event.partner);
     const double impulse = bodies_.mass.of(records_[i].id) * dot<double>(after - before, normal) / length;
     ++collisions_of_all;
     if (is_owned(i))
-        note(event.time, is_ball ? CollisionKind::kBall : CollisionKind::kWall, i, event.partner,
+        note(event.time, is_ball ? CollisionKind::kBall : CollisionKind::kWall, i, event.partner, 0,
              normal / length, impulse, is_ball ? impulse * length : 0.0);
     if (bodies_.physics.contact_time > 0) last_collision_[i] = event.time;
     settle(i);
@@ -356,22 +360,31 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     expect(i, search(i));
 }
 
-/// Adds an event to a ball's history: two balls with equal histories since one state have done the same.
+/// Adds an event to a ball's history: two balls with equal histories since one state have done the same. The
+/// velocity after it belongs there: balls that touch meet at a time that does not tell how fast they were.
 template <Acceleration A>
 void EventLoopOf<A>::remember(std::uint32_t i, const Time& t, std::uint32_t partner) {
     if (!keeps_window) return;
-    std::uint64_t h = sides_[i].history ^ std::bit_cast<std::uint64_t>(t.offset);
-    h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL + partner;
+    std::uint64_t h = sides_[i].history;
+    const auto fold = [&h](std::uint64_t bits, std::uint64_t more) {
+        h ^= bits;
+        h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL + more;
+    };
+    fold(std::bit_cast<std::uint64_t>(t.offset), partner);
+    fold(std::bit_cast<std::uint64_t>(records_[i].anchor.vx), 0);
+    fold(std::bit_cast<std::uint64_t>(records_[i].anchor.vy), 0);
     sides_[i].history = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL;
 }
 
 template <Acceleration A>
 void EventLoopOf<A>::note(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t partner,
-                          const Vec2& normal, double impulse, double virial) {
+                          std::uint32_t partner_stamp, const Vec2& normal, double impulse, double virial) {
     CollisionNote& n = notes.emplace_back();
     n.time = t;
     n.lower = records_[i].id;
     n.higher = partner;
+    n.lower_stamp = records_[i].anchor.stamp;
+    n.higher_stamp = partner_stamp;
     n.is_wall = kind == CollisionKind::kWall;
     n.virial = virial;
     if (listens) {

@@ -132,7 +132,9 @@ class EventLoopOf final : public EventLoop {
     void run_until(double end, bool inclusive);
     void start_next_epoch(std::int64_t epoch);
     [[nodiscard]] std::uint32_t first_of_ties();
-    [[nodiscard]] std::uint64_t most_events_at_once() const { return 2'000'000 + 64 * std::uint64_t{size()}; }
+    [[nodiscard]] std::uint64_t most_events_at_once() const {
+        return (is_patient ? 2'000'000 : 10'000) + 64 * std::uint64_t{size()};
+    }
     [[noreturn]] void refuse_wedged(std::uint32_t i) const;
     void cross(std::uint32_t i);
     void collide_first(std::uint32_t i);
@@ -159,8 +161,8 @@ class EventLoopOf final : public EventLoop {
     }
     [[nodiscard]] double restitution_at(double restitution, std::uint32_t i, std::uint32_t j,
                                         const Time& t) const;
-    void note(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t partner, const Vec2& normal,
-              double impulse, double virial);
+    void note(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t partner,
+              std::uint32_t partner_stamp, const Vec2& normal, double impulse, double virial);
     void remember(std::uint32_t i, const Time& t, std::uint32_t partner);
 };
 

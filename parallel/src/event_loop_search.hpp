@@ -478,7 +478,8 @@ void EventLoopOf<A>::expect(std::uint32_t i, const NextEvent& event) {
         NextEvent& theirs = records_[j].next;
         if (theirs.partner == records_[i].id && theirs.time == event.time && !sides_[j].asleep &&
             theirs.stamp == records_[i].anchor.stamp && theirs.image_x == -event.image_x &&
-            theirs.image_y == -event.image_y && clock_.since_epoch(event.time, epoch_) <= sides_[j].end) {
+            theirs.image_y == -event.image_y && clock_.since_epoch(event.time, epoch_) <= sides_[j].end &&
+            !(simultaneous_ && records_[i].id < records_[j].id)) {
             theirs.local = i;
             sides_[i].asleep = 1;
         }
@@ -506,22 +507,47 @@ void EventLoopOf<A>::lose(std::uint32_t i) {
     schedule(i);
 }
 
-/// Where many events share one instant their order counts: then a pair's event is known to its smaller id.
+/// Where many events share one instant their order counts: then every event that ball i has now is known to
+/// the smaller id of its pair, not the first one only.
 template <Acceleration A>
 void EventLoopOf<A>::tell_lower(std::uint32_t i) {
-    const NextEvent event = records_[i].next;
-    const std::uint32_t j = event.local;
-    if (j == kNowhere || event.partner > records_[i].id || records_[j].anchor.stamp != event.stamp) return;
-    const NextEvent theirs{event.time,     records_[i].id, records_[i].anchor.stamp,
-                           -event.image_x, -event.image_y, i};
-    if (precedes(theirs, records_[j].next, j)) {
-        wake_partner(j);
-        records_[j].next = theirs;
-    } else if (!sides_[j].asleep || records_[j].next.local != i) {
-        return;
+    const auto tell = [this, i](std::uint32_t j, const NextEvent& event) {
+        const NextEvent theirs{event.time,     records_[i].id, records_[i].anchor.stamp,
+                               -event.image_x, -event.image_y, i};
+        if (precedes(theirs, records_[j].next, j)) {
+            wake_partner(j);
+            records_[j].next = theirs;
+        } else if (!sides_[j].asleep || records_[j].next.local != i) {
+            return;
+        }
+        sides_[j].asleep = 0;
+        schedule(j);
+    };
+    const auto tell_if_now = [this, i, &tell](std::uint32_t j, const NextEvent& event) {
+        if (event.local == j && clock_.since_epoch(event.time, epoch_) == now_) tell(j, event);
+    };
+    if (const NextEvent event = records_[i].next; event.local != kNowhere && event.partner < records_[i].id &&
+                                                  records_[event.local].anchor.stamp == event.stamp)
+        tell(event.local, event);
+    const CellCoordinates c = records_[i].anchor.cell;
+    for (std::int32_t y = c.y - 1; y <= c.y + 1; ++y) {
+        for (std::int32_t x = c.x - 1; x <= c.x + 1; ++x) {
+            const std::int32_t place = place_of(i, {x, y});
+            if (place < 0) continue;
+            cells_.for_each(place, [&](std::uint32_t j) {
+                if (records_[j].id >= records_[i].id) return;
+                NextEvent event;
+                consider_listed(i, j, {x, y}, event);
+                tell_if_now(j, event);
+            });
+        }
     }
-    sides_[j].asleep = 0;
-    schedule(j);
+    for (const std::uint32_t j : large_) {
+        if (records_[j].id >= records_[i].id) continue;
+        NextEvent event;
+        consider_images(i, j, event);
+        tell_if_now(j, event);
+    }
 }
 
 template <Acceleration A>

@@ -32,12 +32,17 @@ class RegionAxis {
             size_ = static_cast<std::int32_t>(reach_.size());
             periodic_ = true;
             start_ = folded(reach_.first, count_);
+            mark_base_ = is_window_ ? reach_.first : 0;
+            mark_size_ = size_;
         } else {
             reach_ = {own.first <= -kFarthest ? -kFarthest : own.first - halo,
                       own.last >= kFarthest ? kFarthest : own.last + halo};
             const std::int32_t low = std::max(reach_.first, 0);
-            size_ = std::max(1, std::min(reach_.last, count_) - low);
+            // Two at least, so that a ball that comes to the next cell comes to another place.
+            size_ = std::max(2, std::min(reach_.last, count_) - low);
             base_ = low;
+            mark_base_ = own.first <= -kFarthest ? std::min(0, own.last - 1) : reach_.first;
+            mark_size_ = (own.last >= kFarthest ? std::max(count_, own.first + 1) : reach_.last) - mark_base_;
         }
     }
 
@@ -53,15 +58,15 @@ class RegionAxis {
     [[nodiscard]] bool contains(std::int32_t k) const {
         return (periodic_ && !is_window_) || reach_.contains(k);
     }
-    /// Marks are numbered like places, but that the cells beyond either end share one: [0, size() + 2).
+    /// Marks tell all cells of the region apart, but that those far out at an edge of the plane, all the
+    /// domain's own, share one: [0, mark_count()).
+    [[nodiscard]] std::int32_t mark_count() const { return mark_size_ + 2; }
     [[nodiscard]] std::int32_t mark(std::int32_t k) const {
         if (periodic_) return place(k) + 1;
-        return std::clamp(k - base_, -1, size_) + 1;
+        return std::clamp(k - mark_base_, -1, mark_size_) + 1;
     }
-    /// The coordinate in the region's frame that mark `m` stands for, the innermost where there are several.
-    [[nodiscard]] std::int32_t marked(std::int32_t m) const {
-        return m - 1 + (is_window_ ? reach_.first : base_);
-    }
+    /// A coordinate in the region's frame that mark `m` stands for.
+    [[nodiscard]] std::int32_t marked(std::int32_t m) const { return m - 1 + mark_base_; }
     /// How many cells a coordinate in the region's frame is beyond the domain's own, 0 inside.
     [[nodiscard]] std::int32_t depth(std::int32_t k) const {
         if (periodic_ && !is_window_) {
@@ -86,7 +91,7 @@ class RegionAxis {
     }
     /// Whether a coordinate in the region's frame is among the domain's own and `distance` cells from others.
     [[nodiscard]] bool is_deep_inside(std::int32_t k, std::int32_t distance) const {
-        if (own_.size() >= count_) return true;
+        if (periodic_ && own_.size() >= count_) return true;
         return k - own_.first >= distance && own_.last - 1 - k >= distance;
     }
     /// The place of a coordinate in the region's frame; -1 outside.
@@ -121,6 +126,8 @@ class RegionAxis {
     std::int32_t size_ = 1;
     std::int32_t base_ = 0;
     std::int32_t start_ = 0;  // of `reach_`, folded
+    std::int32_t mark_base_ = 0;
+    std::int32_t mark_size_ = 1;
     bool periodic_ = false;
     bool is_window_ = false;  // periodic, and not the whole axis
 };
@@ -140,10 +147,10 @@ struct Region {
         const std::int32_t py = y.place(c.y);
         return (px | py) < 0 ? -1 : py * x.size() + px;
     }
-    [[nodiscard]] std::int32_t mark_count() const { return (x.size() + 2) * (y.size() + 2); }
+    [[nodiscard]] std::int32_t mark_count() const { return x.mark_count() * y.mark_count(); }
     /// The mark of a cell in the region's frame; -1 outside.
     [[nodiscard]] std::int32_t mark(const CellCoordinates& c) const {
-        return x.contains(c.x) && y.contains(c.y) ? y.mark(c.y) * (x.size() + 2) + x.mark(c.x) : -1;
+        return x.contains(c.x) && y.contains(c.y) ? y.mark(c.y) * x.mark_count() + x.mark(c.x) : -1;
     }
     [[nodiscard]] bool meets(const Region& other) const { return x.meets(other.x) && y.meets(other.y); }
     [[nodiscard]] std::int32_t depth(const CellCoordinates& c) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <queue>
 #include <stdexcept>
 #include <tuple>
 
@@ -14,6 +15,9 @@ constexpr std::int32_t kHalo = 6;  // cells
 constexpr std::int32_t kKept = 4;
 // The first window's share of an epoch; the next ones follow the collisions that it had.
 constexpr double kFirstWindow = 1.0 / 256;
+// The least window's share of an epoch: what cannot be cut finer, a row of touching balls that is hit at one
+// end, goes through one loop, and time goes on.
+constexpr double kLeastWindow = 0x1p-30;
 // How the collisions a ball aimed at in a window grow while all agrees, and shrink when it does not.
 constexpr double kFirstGrowth = 1.05;  // until the first disagreement
 constexpr double kGrowth = 1.002;
@@ -25,6 +29,16 @@ constexpr int kMostShortenings = 5;
 // A domain may have so many times the mean of balls before the plane is cut anew.
 constexpr double kUneven = 1.5;
 constexpr int kWindowsBetweenSplits = 16;
+
+/// The halo of a domain that runs again.
+constexpr std::int32_t widened(std::int32_t halo) {
+    return halo + halo / 2 + 1;
+}
+/// The widest that a domain may come to.
+constexpr std::int32_t widest(std::int32_t halo) {
+    for (int repair = 0; repair < kMostRepairs; ++repair) halo = widened(halo);
+    return halo;
+}
 
 CellCoordinates fold_periodic(const Grid& grid, const CellCoordinates& c) {
     return {grid.x.periodic() ? grid.x.fold(c.x) : c.x, grid.y.periodic() ? grid.y.fold(c.y) : c.y};
@@ -231,6 +245,7 @@ void WindowedEngine::run(DomainState& d, const Time& window_end, bool inclusive)
     const Lease lease(*this);
     Workshop& w = *lease;
     w.loop->keeps_window = true;
+    w.loop->is_patient = false;  // all balls together will tell
     d.region = {bodies_.grid, d.x, d.y, d.halo};
     load(w, d.region, d.halo, window_end, true);
     w.loop->start();
@@ -274,10 +289,10 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     }
     for (const Visit& v : loop.visits_of_copies)
         d.copy_visits.push_back({v.ball - w.own, d.region.mark(v.cell)});
-    // Other domains reach no further into this one than their halo.
+    // Other domains reach no further into this one than their halo, be it widened after this run.
+    const std::int32_t reach = widest(halo_);
     for (const Visit& v : loop.visits)
-        if (!d.region.x.is_deep_inside(v.cell.x, 2 * halo_) ||
-            !d.region.y.is_deep_inside(v.cell.y, 2 * halo_))
+        if (!d.region.x.is_deep_inside(v.cell.x, reach) || !d.region.y.is_deep_inside(v.cell.y, reach))
             d.visits.push_back({w.origins[v.ball], fold_periodic(bodies_.grid, v.cell)});
 }
 
@@ -327,7 +342,7 @@ bool WindowedEngine::try_window(const Time& window_end, bool inclusive) {
         disagreeing_ += disagreeing;
         if (round == kMostRepairs || 4 * disagreeing > 3 * domains_.size() + 4) return false;
         for (std::size_t d = 0; d < domains_.size(); ++d)
-            if (runs[d]) domains_[d].halo += domains_[d].halo / 2 + 1;
+            if (runs[d]) domains_[d].halo = widened(domains_[d].halo);
     }
 }
 
@@ -335,7 +350,7 @@ bool WindowedEngine::try_window(const Time& window_end, bool inclusive) {
 void WindowedEngine::run_together(const Time& window_end, bool inclusive) {
     const Lease lease(*this);
     Workshop& w = *lease;
-    w.loop->keeps_window = true;
+    w.loop->keeps_window = w.loop->is_patient = true;
     load(w, {bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0}, 0, window_end, false);
     w.loop->start();
     w.loop->advance_to(window_end, inclusive);
@@ -420,20 +435,31 @@ void WindowedEngine::commit() {
         split_anew();
 }
 
-void WindowedEngine::next_window(const Time& horizon) {
+/// One window more, on the way to `wanted` or beyond it.
+void WindowedEngine::next_window(const Time& wanted, const Time& horizon) {
     const Clock& clock = bodies_.physics.clock;
     commit();
+    const double least = clock.epoch_length() * kLeastWindow;
     for (int shortenings = 0;; ++shortenings) {
+        const bool gives_up = shortenings > kMostShortenings || (shortenings > 0 && window_length_ <= least);
         Time end = clock.after(window_start_, window_length_);
         if (end.epoch > window_start_.epoch) end = {window_start_.epoch + 1, 0};
         window_is_closed_ = end >= horizon;
         if (window_is_closed_) end = horizon;
         const double length = clock.difference(end, window_start_);
-        const bool agreed = shortenings <= kMostShortenings && try_window(end, window_is_closed_);
-        if (!agreed && shortenings > kMostShortenings) run_together(end, window_is_closed_);
+        const bool agreed = !gives_up && try_window(end, window_is_closed_);
+        try {
+            if (gives_up) run_together(end, window_is_closed_);
+        } catch (const std::runtime_error&) {
+            if (end <= wanted) throw;
+            // What cannot go on lies ahead of the time that is asked for, and is no fault yet.
+            end = wanted;
+            window_is_closed_ = true;
+            run_together(end, window_is_closed_);
+        }
         counts_.windows += domains_.size();
         tune(length, agreed);
-        if (!agreed && shortenings <= kMostShortenings) continue;
+        if (!agreed && !gives_up) continue;
         window_end_ = end;
         in_window_ = true;
         return;
@@ -442,12 +468,15 @@ void WindowedEngine::next_window(const Time& horizon) {
 
 /// Aims the next window at a number of collisions a ball that the halo stands.
 void WindowedEngine::tune(double length, bool agreed) {
+    const double least = bodies_.physics.clock.epoch_length() * kLeastWindow;
     if (!agreed) {
         target_ = std::max(kLeastTarget, target_ * kShrinkage);
         growth_ = kGrowth;
-        window_length_ = length / 2;
+        window_length_ = std::max(length / 2, least);
         return;
     }
+    // One that an epoch's end or the field has cut short tells little.
+    if (length < window_length_ / 2) return;
     const double retried = double(disagreeing_) / double(domains_.size());
     if (retried > 0) growth_ = kGrowth;
     target_ = std::min(kMostTarget, target_ * growth_ * std::pow(kShrinkage, retried));
@@ -455,8 +484,7 @@ void WindowedEngine::tune(double length, bool agreed) {
     for (const DomainState& d : domains_) collisions += double(d.notes.size());
     const double a_ball = 2 * collisions / std::max(1.0, double(bodies_.moving));
     const double wanted = a_ball > 0 ? length * target_ / a_ball : 2 * length;
-    // A window that an epoch's end or the field has cut short is no reason to hurry.
-    window_length_ = std::clamp(wanted, length / 2, std::max(2 * length, window_length_));
+    window_length_ = std::max(least, std::clamp(wanted, length / 2, std::max(2 * length, window_length_)));
 }
 
 // ---- As the world sees it
@@ -464,25 +492,68 @@ void WindowedEngine::tune(double length, bool agreed) {
 void WindowedEngine::advance_to(const Time& end, const Time& horizon) {
     while (!in_window_ || window_end_ < end || (window_end_ == end && !window_is_closed_)) {
         if (in_window_) tell_until(window_end_);
-        next_window(horizon);
+        next_window(end, horizon);
     }
     tell_until(end);
     now_ = end;
 }
 
 void WindowedEngine::tell_until(const Time& end) {
-    std::vector<std::pair<const CollisionNote*, const Collision*>> told;
+    std::vector<Told> told;
     for (DomainState& d : domains_) {
         for (; d.told < d.notes.size() && d.notes[d.told].time <= end; ++d.told) {
             count(d.notes[d.told]);
-            if (listener_) told.emplace_back(&d.notes[d.told], &d.collisions[d.told]);
+            if (listener_) told.push_back({&d.notes[d.told], &d.collisions[d.told]});
         }
     }
-    const auto order = [](const auto& n) {
-        return std::tuple(n.first->time, n.first->lower, n.first->higher);
+    std::ranges::stable_sort(told, {}, [](const Told& t) { return t.note->time; });
+    for (auto first = told.begin(); first != told.end();) {
+        const auto last = std::find_if(first, told.end(),
+                                       [first](const Told& t) { return t.note->time != first->note->time; });
+        if (last - first > 1) order_simultaneous({first, last});
+        first = last;
+    }
+    for (const Told& t : told) listener_(*t.collision);
+}
+
+/// Collisions at one instant in the order in which a single loop has them: always the smallest ids whose
+/// balls have had all that came to them before. One collision may bring about the next, so that the ids alone
+/// do not tell.
+void WindowedEngine::order_simultaneous(std::span<Told> notes) const {
+    struct Use {
+        std::uint32_t ball, stamp;
+        std::size_t note;
     };
-    std::ranges::stable_sort(told, {}, order);
-    for (const auto& [note, collision] : told) listener_(*collision);
+    std::vector<Use> uses;
+    for (std::size_t k = 0; k < notes.size(); ++k) {
+        const CollisionNote& n = *notes[k].note;
+        uses.push_back({n.lower, n.lower_stamp, k});
+        if (!n.is_wall && !bodies_.fixes(n.higher)) uses.push_back({n.higher, n.higher_stamp, k});
+    }
+    std::ranges::sort(uses, {}, [](const Use& u) { return std::tuple(u.ball, u.stamp); });
+    std::vector<int> waits_for(notes.size(), 0);
+    std::vector<std::vector<std::size_t>> lets_go(notes.size());
+    for (std::size_t u = 1; u < uses.size(); ++u) {
+        if (uses[u].ball != uses[u - 1].ball) continue;
+        lets_go[uses[u - 1].note].push_back(uses[u].note);
+        ++waits_for[uses[u].note];
+    }
+    const auto comes_later = [&notes](std::size_t a, std::size_t b) {
+        return std::tuple(notes[a].note->lower, notes[a].note->higher) >
+               std::tuple(notes[b].note->lower, notes[b].note->higher);
+    };
+    std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(comes_later)> ready(comes_later);
+    for (std::size_t k = 0; k < notes.size(); ++k)
+        if (waits_for[k] == 0) ready.push(k);
+    std::vector<Told> ordered;
+    while (!ready.empty()) {
+        const std::size_t k = ready.top();
+        ready.pop();
+        ordered.push_back(notes[k]);
+        for (const std::size_t next : lets_go[k])
+            if (--waits_for[next] == 0) ready.push(next);
+    }
+    std::ranges::copy(ordered, notes.begin());
 }
 
 void WindowedEngine::renew_field(const Time& t) {

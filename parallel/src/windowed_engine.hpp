@@ -7,6 +7,7 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -57,10 +58,15 @@ class WindowedEngine final : public Engine {
     [[nodiscard]] bool try_window(const Time& window_end, bool inclusive);
     void run_together(const Time& window_end, bool inclusive);
     void predict_anew(bool renews_field);
-    void next_window(const Time& horizon);
+    void next_window(const Time& wanted, const Time& horizon);
     void commit();
     void rewind_to_now();
     void tell_until(const Time& end);
+    struct Told {
+        const CollisionNote* note;
+        const Collision* collision;
+    };
+    void order_simultaneous(std::span<Told> notes) const;
     void tune(double length, bool agreed);
 
     mutable std::atomic<std::chrono::steady_clock::rep> working_time_ = 0;

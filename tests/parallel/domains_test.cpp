@@ -80,6 +80,71 @@ std::vector<NamedScene> uneven_scenes() {
     for (Ball& b : still.balls) b.velocity.setZero();
     still.balls[450].velocity = {40, 7};
     all.push_back({"one moves at first", still});
+
+    // What matters in the scenes below shows with few domains, at the edges of the plane.
+    Scene crossing = gas(101, {.count = 400, .packing = 0.3, .boundary_x = kWall, .boundary_y = kWall});
+    for (std::size_t i = 0; i < crossing.balls.size(); i += 7) crossing.balls[i].velocity *= 30;
+    all.push_back({"fast ones from afar between walls", crossing});
+
+    Scene drifting = gas(102, {.count = 400, .packing = 0.5, .boundary_x = kOpen, .boundary_y = kOpen});
+    for (Ball& b : drifting.balls) b.velocity = 0.3 * b.velocity + Vec2(12, 0);
+    all.push_back({"a cloud leaves the box as a whole", drifting});
+
+    std::mt19937_64 random(5);
+    Scene thin;
+    thin.domain = Domain{{{0, 0}, {300, 1.02}}, {kOpen, kOpen}, 1};
+    for (int i = 0; i < 150; ++i) {
+        Ball b;
+        b.position = {1.0 + 2 * i, 0.51};
+        b.velocity = random_velocity(random, 1).cwiseProduct(Vec2(i % 4 == 0 ? 30 : 1, 0.3));
+        thin.balls.push_back(b);
+    }
+    thin.walls = {{{-50, -4}, {350, -4}, 1}, {{-50, 5}, {350, 5}, 1}};
+    all.push_back({"a box one cell thick", thin});
+    return all;
+}
+
+/// Scenes in which many events share one instant, and the order among them counts.
+std::vector<NamedScene> simultaneous_scenes() {
+    std::vector<NamedScene> all;
+    const auto at = [](double x, double y, double vx, double vy) {
+        Ball b;
+        b.position = {x, y};
+        b.velocity = {vx, vy};
+        return b;
+    };
+    const auto box = [](double side) {
+        Scene s;
+        s.domain = Domain{{{0, 0}, {side, side}}, {Boundary::kWall, Boundary::kWall}, 1};
+        return s;
+    };
+    // All of a row move at the instant at which its first is hit, however long it is.
+    for (const bool backwards : {false, true}) {
+        Scene row = box(150);
+        for (int i = 0; i < 100; ++i) row.balls.push_back(at(backwards ? 119 - i : 20 + i, 10, 0, 0));
+        row.balls.push_back(at(15, 10, 10, 0));
+        for (int i = 0; i < 30; ++i) row.balls.push_back(at(3 + 4.7 * i, 14 + i % 3, 2 + 0.1 * i, 3));
+        all.push_back({backwards ? "row of falling ids" : "row of rising ids", row});
+    }
+
+    std::mt19937_64 random(1);
+    Scene lattice = box(48);
+    for (int k = 0; k < 24 * 24; ++k) {
+        if (random() % 4 == 0) continue;
+        const double vx = double(random() % 3) - 1;
+        lattice.balls.push_back(at(1 + 2 * (k % 24), 1 + 2 * (k / 24), vx, double(random() % 3) - 1));
+    }
+    all.push_back({"lattice", lattice});
+
+    std::mt19937_64 other(2);
+    Scene touching = box(26);
+    for (int k = 0; k < 24 * 24; ++k) {
+        const double vx = double(other() % 3) - 1;
+        const double vy = double(other() % 3) - 1;
+        const double moves = other() % 8 == 0 ? 1 : 0;
+        touching.balls.push_back(at(1 + k % 24, 1 + k / 24, moves * vx, moves * vy));
+    }
+    all.push_back({"lattice of touching balls", touching});
     return all;
 }
 
@@ -107,11 +172,15 @@ TEST_P(Domains, MendAHaloThatIsTooThin) {
     constexpr double kEnd = 3;
     const Outcome serial = run(GetParam().scene, {.threads = 1, .domains = 1}, kEnd);
     std::uint64_t retries = 0;
-    for (const int halo : {1, 2}) {
+    for (const int halo : {1, 2, 3}) {
         SCOPED_TRACE("halo of " + std::to_string(halo));
-        const Outcome thin = run(GetParam().scene, {.threads = 2, .domains = 9, .halo = halo}, kEnd);
-        expect_equal(thin, serial);
-        retries += thin.counts.window_retries;
+        for (const int domains : {2, 3, 9}) {
+            SCOPED_TRACE(std::to_string(domains) + " domains");
+            const Outcome thin =
+                run(GetParam().scene, {.threads = 2, .domains = domains, .halo = halo}, kEnd);
+            expect_equal(thin, serial);
+            retries += thin.counts.window_retries;
+        }
     }
     EXPECT_GT(retries, 0U);
 }
@@ -122,6 +191,25 @@ std::string name_of(const testing::TestParamInfo<NamedScene>& param) {
     return name;
 }
 INSTANTIATE_TEST_SUITE_P(Uneven, Domains, testing::ValuesIn(uneven_scenes()), name_of);
+
+class SimultaneousInDomains : public testing::TestWithParam<NamedScene> {};
+
+/// One collision brings about the next at the same instant, over any distance. The comparison must not take
+/// equal times for equal histories, the order must be the serial one, and time must go on.
+TEST_P(SimultaneousInDomains, GiveTheSerialResult) {
+    constexpr double kEnd = 1;
+    const Outcome serial = run(GetParam().scene, {.threads = 1, .domains = 1}, kEnd);
+    ASSERT_GT(serial.collisions.size(), 50U);
+    for (const int domains : {2, 3, 7}) {
+        for (const int halo : {0, 1, 3}) {
+            SCOPED_TRACE(std::to_string(domains) + " domains, halo of " + std::to_string(halo));
+            expect_equal(run(GetParam().scene, {.threads = 2, .domains = domains, .halo = halo}, kEnd),
+                         serial);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ties, SimultaneousInDomains, testing::ValuesIn(simultaneous_scenes()), name_of);
 
 TEST(DomainsOfAGas, RetryRarely) {
     const Scene scene = gas(37, {.count = 10000, .packing = 0.5});
