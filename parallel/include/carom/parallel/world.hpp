@@ -29,7 +29,7 @@ struct Collision {
 struct WorldOptions {
     int threads = 0;  ///< 0: as many as the machine offers
     double cell_size =
-        0;  ///< of the grid; 0: chosen from the scene. Changes speed, never a bit of the result
+        0;            ///< of the grid; 0: chosen from the scene. Changes speed, never a bit of the result
     int domains = 0;  ///< that the plane is cut in, to be simulated side by side; 0: chosen. Speed only
     int halo = 0;     ///< cells around a domain that it simulates as well; 0: chosen. Speed only
 };
@@ -37,9 +37,9 @@ struct WorldOptions {
 struct Counts {
     std::uint64_t ball_collisions = 0;
     std::uint64_t wall_collisions = 0;
-    std::uint64_t events = 0;  ///< collisions, cell crossings, stale predictions and field updates
-    std::uint64_t windows = 0;         ///< stretches of time through which a domain went on its own
-    std::uint64_t window_retries = 0;  ///< of them those that a domain had to go through again
+    std::uint64_t events = 0;             ///< collisions, cell crossings, stale predictions and field updates
+    std::uint64_t windows = 0;            ///< stretches of time through which a domain went on its own
+    std::uint64_t window_retries = 0;     ///< of them those that a domain had to go through again
     std::uint64_t copied_collisions = 0;  ///< that a domain resolved for its halo, on top of all others
 };
 
@@ -85,7 +85,8 @@ class World {
     [[nodiscard]] std::vector<Ball> balls() const;
 
     [[nodiscard]] Counts counts() const;
-    /// Seconds that the threads have worked on domains, all together, for benchmarks; 0 where there is one domain.
+    /// Seconds that the threads have worked on domains, all together, for benchmarks; 0 where there is one
+    /// domain.
     [[nodiscard]] double working_seconds() const;
     [[nodiscard]] double kinetic_energy() const;
     /// Kinetic plus potential in the scene's gravity and the balls' own accelerations.
