@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "event_loop_candidates.hpp"
 #include "event_loop_events.hpp"
 #include "event_loop_of.hpp"
 #include "event_loop_search.hpp"

@@ -168,4 +168,9 @@ struct Region {
     return {-GridAxis::kFarthest, GridAxis::kFarthest};
 }
 
+/// A cell with its coordinates on periodic axes folded into the box.
+[[nodiscard]] inline CellCoordinates fold_periodic(const Grid& grid, const CellCoordinates& c) {
+    return {grid.x.periodic() ? grid.x.fold(c.x) : c.x, grid.y.periodic() ? grid.y.fold(c.y) : c.y};
+}
+
 }  // namespace carom

@@ -3,6 +3,7 @@
 // argument why equal histories are the serial ones.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -15,6 +16,18 @@
 #include "engine.hpp"
 
 namespace carom {
+
+/// So often the domains that disagree go through a window again before it is given up.
+inline constexpr int kMostRepairs = 2;
+/// The halo of a domain that runs again.
+[[nodiscard]] constexpr std::int32_t widened(std::int32_t halo) {
+    return halo + halo / 2 + 1;
+}
+/// The widest that a domain may come to.
+[[nodiscard]] constexpr std::int32_t widest(std::int32_t halo) {
+    for (int repair = 0; repair < kMostRepairs; ++repair) halo = widened(halo);
+    return halo;
+}
 
 class WindowedEngine final : public Engine {
  public:
@@ -43,7 +56,13 @@ class WindowedEngine final : public Engine {
     class Lease;
 
     template <class F>
-    void for_each_domain(F&& f) const;
+    void for_each_domain(F&& f) const {
+        executor_.for_ranges(domains_.size(), 1, [&](std::size_t first, std::size_t last) {
+            const auto start = std::chrono::steady_clock::now();
+            for (std::size_t d = first; d < last; ++d) f(d);
+            working_time_ += (std::chrono::steady_clock::now() - start).count();
+        });
+    }
     void split(std::vector<BallRecord> records, std::vector<BallExtra> extras, Span x, Span y, int parts);
     void split_anew();
     void index_records(DomainState& d) const;
@@ -87,6 +106,43 @@ class WindowedEngine final : public Engine {
     double growth_;
     double target_ = 1;  // collisions a ball in a window
     int since_split_ = 0;
+};
+
+/// A workshop taken from the idle ones for a while.
+class WindowedEngine::Lease {
+ public:
+    explicit Lease(const WindowedEngine& engine) : engine_(engine) {
+        {
+            const std::lock_guard lock(engine.mutex_);
+            // The one that this thread used last, if it can be had: its cache still has it.
+            auto found = std::ranges::find(engine.idle_, std::this_thread::get_id(),
+                                           [](const auto& idle) { return idle->thread; });
+            if (found == engine.idle_.end() && !engine.idle_.empty()) found = engine.idle_.begin();
+            if (found != engine.idle_.end()) {
+                workshop_ = std::move(*found);
+                engine.idle_.erase(found);
+            }
+        }
+        if (!workshop_) {
+            workshop_ = std::make_unique<Workshop>();
+            workshop_->loop = make_event_loop(engine.bodies_);
+            workshop_->loop->keeps_notes = true;
+        }
+        workshop_->loop->listens = static_cast<bool>(engine.listener_);
+        workshop_->thread = std::this_thread::get_id();
+    }
+    ~Lease() {
+        const std::lock_guard lock(engine_.mutex_);
+        engine_.idle_.push_back(std::move(workshop_));
+    }
+    Lease(const Lease&) = delete;
+    Lease& operator=(const Lease&) = delete;
+
+    Workshop& operator*() const { return *workshop_; }
+
+ private:
+    const WindowedEngine& engine_;
+    std::unique_ptr<Workshop> workshop_;
 };
 
 }  // namespace carom

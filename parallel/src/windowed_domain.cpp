@@ -1,0 +1,148 @@
+// One domain through a window: what it is sent, what it does, and whether that agrees with its neighbours.
+#include <algorithm>
+#include <stdexcept>
+
+#include "windowed_engine.hpp"
+
+namespace carom {
+namespace {
+
+// So many cells of a halo are simulated to the window's end; the domain's own balls come there.
+constexpr std::int32_t kKept = 4;
+
+}  // namespace
+
+/// Appends to a message what a domain holds for a region: plain data, all that the receiver needs.
+void WindowedEngine::pack(std::uint32_t from, const Region& region, std::vector<BallMessage>& message) const {
+    const DomainState& source = domains_[from];
+    if (!region.x.meets(source.cells_x) || !region.y.meets(source.cells_y)) return;
+    for (std::uint32_t k = 0; k < source.records.size(); ++k) {
+        CellCoordinates c = source.cells[k];
+        if (!region.x.covers(c.x) || !region.y.covers(c.y)) continue;
+        c.x += region.x.frame_of(c.x);
+        c.y += region.y.frame_of(c.y);
+        BallMessage& ball = message.emplace_back();
+        ball.record = source.records[k];
+        if (!source.extras.empty()) ball.extra = source.extras[k];
+        ball.origin = {from, k};
+        ball.depth = region.depth(c);
+    }
+}
+
+/// Fills a loop from a message: the domain's own balls first, then copies of the others. With `ends_early` a
+/// copy is given up the sooner the deeper in the halo it starts: what it does later cannot reach the domain
+/// before the window ends.
+void WindowedEngine::unpack(const std::vector<BallMessage>& message, const Region& region, std::int32_t halo,
+                            const Time& window_end, bool ends_early, Workshop& w) const {
+    const Clock& clock = bodies_.physics.clock;
+    std::vector<Time> ends;  // of copies, by depth
+    const double length = clock.difference(window_end, window_start_);
+    for (std::int32_t depth = 0; depth <= halo; ++depth) {
+        const double share =
+            depth <= kKept ? 1.0 : double(halo - depth + 1) / double(std::max(1, halo - kKept + 1));
+        ends.push_back(share < 1 && ends_early ? clock.after(window_start_, share * length) : kNever);
+    }
+    w.loop->clear(region, window_start_);
+    w.loop->reserve(message.size());
+    w.origins.clear();
+    for (const bool own : {true, false}) {
+        for (const BallMessage& ball : message) {
+            if ((ball.depth == 0) != own) continue;
+            w.loop->add(ball.record, &ball.extra, own,
+                        ends[std::min(static_cast<std::size_t>(ball.depth), ends.size() - 1)]);
+            w.origins.push_back(ball.origin);
+        }
+        if (own) w.own = w.loop->size();
+    }
+}
+
+void WindowedEngine::load(Workshop& w, const Region& region, std::int32_t halo, const Time& window_end,
+                          bool ends_early) const {
+    w.message.clear();
+    for (std::uint32_t d = 0; d < domains_.size(); ++d) pack(d, region, w.message);
+    unpack(w.message, region, halo, window_end, ends_early, w);
+}
+
+void WindowedEngine::run(DomainState& d, const Time& window_end, bool inclusive) {
+    const Lease lease(*this);
+    Workshop& w = *lease;
+    w.loop->keeps_window = true;
+    w.loop->is_patient = false;  // all balls together will tell
+    d.region = {bodies_.grid, d.x, d.y, d.halo};
+    load(w, d.region, d.halo, window_end, true);
+    w.loop->start();
+    try {
+        w.loop->advance_to(window_end, inclusive);
+        d.failed = w.loop->has_failed();
+    } catch (const std::runtime_error&) {
+        d.failed = true;  // perhaps only because a copy went astray: all balls together will tell
+    }
+    keep_outcome(d, w, window_end);
+}
+
+void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& window_end) {
+    EventLoop& loop = *w.loop;
+    d.results.clear();
+    d.result_extras.clear();
+    d.last_overwritten.clear();
+    d.copies.clear();
+    d.copy_visits.clear();
+    d.visits.clear();
+    d.told = 0;
+    std::swap(d.overwritten, loop.overwritten);
+    std::swap(d.notes, loop.notes);
+    std::swap(d.collisions, loop.collisions);
+    std::swap(d.touched, loop.touched);
+    d.events = loop.events;
+    d.copied_collisions =
+        loop.collisions_of_all - std::min<std::uint64_t>(loop.collisions_of_all, d.notes.size());
+    d.results.assign(loop.records().begin(), loop.records().begin() + w.own);
+    for (std::uint32_t i = 0; i < w.own; ++i) {
+        if (bodies_.needs_extras()) d.result_extras.push_back(loop.extra(i));
+        d.last_overwritten.push_back(loop.last_overwritten(i));
+        domains_[w.origins[i].domain].histories[w.origins[i].index] = loop.history(i);
+    }
+    d.copies.reserve(loop.size() - w.own);
+    for (std::uint32_t i = w.own; i < loop.size(); ++i) {
+        const CellCoordinates c = domains_[w.origins[i].domain].cells[w.origins[i].index];
+        const CellCoordinates frame = d.region.frame_of(c);
+        d.copies.push_back({w.origins[i], loop.history(i), d.region.mark({c.x + frame.x, c.y + frame.y}),
+                            loop.is_lost(i, window_end)});
+    }
+    for (const Visit& v : loop.visits_of_copies)
+        d.copy_visits.push_back({v.ball - w.own, d.region.mark(v.cell)});
+    // Other domains reach no further into this one than their halo, be it widened after this run.
+    const std::int32_t reach = widest(halo_);
+    for (const Visit& v : loop.visits)
+        if (!d.region.x.is_deep_inside(v.cell.x, reach) || !d.region.y.is_deep_inside(v.cell.y, reach))
+            d.visits.push_back({w.origins[v.ball], fold_periodic(bodies_.grid, v.cell)});
+}
+
+/// Whether every foreign ball that could have met one of the domain's own did there what it did at its owner.
+bool WindowedEngine::agrees(const DomainState& d) const {
+    if (d.failed) return false;
+    std::vector<std::uint8_t> is_right(d.copies.size());
+    for (std::size_t k = 0; k < d.copies.size(); ++k) {
+        const CopyOutcome& copy = d.copies[k];
+        is_right[k] =
+            !copy.is_lost && copy.history == domains_[copy.origin.domain].histories[copy.origin.index];
+        if (!is_right[k] && d.touched[static_cast<std::size_t>(copy.mark)]) return false;
+    }
+    for (const CopyVisit& v : d.copy_visits)
+        if (!is_right[v.copy] && d.touched[static_cast<std::size_t>(v.mark)]) return false;
+    for (const DomainState& other : domains_) {
+        if (&other == &d || !d.region.meets(other.region)) continue;
+        for (const OwnVisit& v : other.visits) {
+            const CellCoordinates frame = d.region.frame_of(v.cell);
+            const std::int32_t mark = d.region.mark({v.cell.x + frame.x, v.cell.y + frame.y});
+            if (mark < 0 || !d.touched[static_cast<std::size_t>(mark)]) continue;
+            const auto copy = std::ranges::lower_bound(d.copies, v.origin, {}, &CopyOutcome::origin);
+            if (copy == d.copies.end() || copy->origin != v.origin ||
+                !is_right[static_cast<std::size_t>(copy - d.copies.begin())])
+                return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace carom

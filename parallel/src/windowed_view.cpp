@@ -1,0 +1,137 @@
+// The windows as the world sees them: a time inside one, what has happened until then, and the state there.
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+#include "windowed_engine.hpp"
+
+namespace carom {
+
+void WindowedEngine::advance_to(const Time& end, const Time& horizon) {
+    while (!in_window_ || window_end_ < end || (window_end_ == end && !window_is_closed_)) {
+        if (in_window_) tell_until(window_end_);
+        next_window(end, horizon);
+    }
+    tell_until(end);
+    now_ = end;
+}
+
+void WindowedEngine::tell_until(const Time& end) {
+    std::vector<Told> told;
+    for (DomainState& d : domains_) {
+        for (; d.told < d.notes.size() && d.notes[d.told].time <= end; ++d.told) {
+            count(d.notes[d.told]);
+            if (listener_) told.push_back({&d.notes[d.told], &d.collisions[d.told]});
+        }
+    }
+    std::ranges::stable_sort(told, {}, [](const Told& t) { return t.note->time; });
+    for (auto first = told.begin(); first != told.end();) {
+        const auto last = std::find_if(first, told.end(),
+                                       [first](const Told& t) { return t.note->time != first->note->time; });
+        if (last - first > 1) order_simultaneous({first, last});
+        first = last;
+    }
+    for (const Told& t : told) listener_(*t.collision);
+}
+
+/// Collisions at one instant in the order in which a single loop has them: always the smallest ids whose
+/// balls have had all that came to them before. One collision may bring about the next, so that the ids alone
+/// do not tell.
+void WindowedEngine::order_simultaneous(std::span<Told> notes) const {
+    struct Use {
+        std::uint32_t ball, stamp;
+        std::size_t note;
+    };
+    std::vector<Use> uses;
+    for (std::size_t k = 0; k < notes.size(); ++k) {
+        const CollisionNote& n = *notes[k].note;
+        uses.push_back({n.lower, n.lower_stamp, k});
+        if (!n.is_wall && !bodies_.fixes(n.higher)) uses.push_back({n.higher, n.higher_stamp, k});
+    }
+    std::ranges::sort(uses, {}, [](const Use& u) { return std::tuple(u.ball, u.stamp); });
+    std::vector<int> waits_for(notes.size(), 0);
+    std::vector<std::vector<std::size_t>> lets_go(notes.size());
+    for (std::size_t u = 1; u < uses.size(); ++u) {
+        if (uses[u].ball != uses[u - 1].ball) continue;
+        lets_go[uses[u - 1].note].push_back(uses[u].note);
+        ++waits_for[uses[u].note];
+    }
+    const auto comes_later = [&notes](std::size_t a, std::size_t b) {
+        return std::tuple(notes[a].note->lower, notes[a].note->higher) >
+               std::tuple(notes[b].note->lower, notes[b].note->higher);
+    };
+    std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(comes_later)> ready(comes_later);
+    for (std::size_t k = 0; k < notes.size(); ++k)
+        if (waits_for[k] == 0) ready.push(k);
+    std::vector<Told> ordered;
+    while (!ready.empty()) {
+        const std::size_t k = ready.top();
+        ready.pop();
+        ordered.push_back(notes[k]);
+        for (const std::size_t next : lets_go[k])
+            if (--waits_for[next] == 0) ready.push(next);
+    }
+    std::ranges::copy(ordered, notes.begin());
+}
+
+void WindowedEngine::renew_field(const Time& t) {
+    commit();
+    window_start_ = t;
+    predict_anew(true);
+}
+
+void WindowedEngine::read(const Time& t, std::span<BallState> states) const {
+    for_each_domain([&](std::size_t k) {
+        const DomainState& d = domains_[k];
+        const std::vector<BallRecord>& records = in_window_ ? d.results : d.records;
+        const std::vector<BallExtra>& extras = in_window_ ? d.result_extras : d.extras;
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            Anchor anchor = records[i].anchor;
+            Periods periods = records[i].periods;
+            if (in_window_) {
+                for (std::uint32_t o = d.last_overwritten[i]; anchor.time > t && o != kNowhere;
+                     o = d.overwritten[o].previous) {
+                    const OverwrittenAnchor& before = d.overwritten[o];
+                    anchor = {before.x, before.y, before.vx, before.vy, before.time, 0, 0, {}};
+                    periods = before.periods;
+                }
+            }
+            states[records[i].id] = state_at(bodies_, anchor, periods,
+                                             extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, t);
+        }
+    });
+}
+
+void WindowedEngine::audit(std::vector<Violation>& found) const {
+    const std::unique_ptr<EventLoop> loop = make_event_loop(bodies_);
+    loop->clear({bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0},
+                in_window_ ? window_end_ : window_start_);
+    for (const DomainState& d : domains_) {
+        const std::vector<BallRecord>& records = in_window_ ? d.results : d.records;
+        const std::vector<BallExtra>& extras = in_window_ ? d.result_extras : d.extras;
+        for (std::size_t i = 0; i < records.size(); ++i)
+            loop->add(records[i], extras.empty() ? nullptr : &extras[i], true);
+    }
+    loop->start();
+    loop->audit(found);
+}
+
+/// Back to the time that the world sees: what lies ahead of it is forgotten.
+void WindowedEngine::rewind_to_now() {
+    if (!in_window_) return;
+    // The window again, up to now only; its events are counted and told already.
+    run_together(now_, true);
+    for (DomainState& d : domains_) {
+        d.notes.clear();
+        d.collisions.clear();
+    }
+    window_end_ = now_;
+    window_is_closed_ = true;
+}
+
+void WindowedEngine::listen(std::function<void(const Collision&)> listener) {
+    rewind_to_now();
+    listener_ = std::move(listener);
+}
+
+}  // namespace carom
