@@ -269,7 +269,7 @@ void EventLoopOf<A>::tell_lower(std::uint32_t i) {
         sides_[j].asleep = 0;
         schedule(j);
     };
-    const auto tell_if_now = [this, i, &tell](std::uint32_t j, const NextEvent& event) {
+    const auto tell_if_now = [this, &tell](std::uint32_t j, const NextEvent& event) {
         if (event.local == j && clock_.since_epoch(event.time, epoch_) == now_) tell(j, event);
     };
     if (const NextEvent event = records_[i].next; event.local != kNowhere && event.partner < records_[i].id &&

@@ -24,7 +24,7 @@ void WindowedEngine::tell_until(const Time& end) {
             if (listener_) told.push_back({&d.notes[d.told], &d.collisions[d.told]});
         }
     }
-    std::ranges::stable_sort(told, {}, [](const Told& t) { return t.note->time; });
+    std::ranges::sort(told, {}, [](const Told& t) { return t.note->time; });
     for (auto first = told.begin(); first != told.end();) {
         const auto last = std::find_if(first, told.end(),
                                        [first](const Told& t) { return t.note->time != first->note->time; });
