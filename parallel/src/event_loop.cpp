@@ -34,9 +34,10 @@ void EventLoop::clear(const Region& region, const Time& now) {
         return marks;
     };
     const std::vector<std::int32_t> columns = own_marks(region.x);
+    const auto width = static_cast<std::size_t>(region.x.mark_count());
     for (const std::int32_t y : own_marks(region.y))
         for (const std::int32_t x : columns)
-            touched[static_cast<std::size_t>(y * region.x.mark_count() + x)] = 1;
+            touched[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1;
 }
 
 void EventLoop::reserve(std::size_t balls) {

@@ -90,9 +90,11 @@ double EventLoopOf<A>::bound_times(std::uint32_t i, const Present& a, Candidates
         const Doubles way_y = since * bvy;
         Doubles x = a.x - __builtin_shufflevector(x_01, x_23, 0, 1, 4, 5) - way_x;
         Doubles y = a.y - __builtin_shufflevector(y_01, y_23, 0, 1, 4, 5) - way_y;
+        // NOLINTBEGIN(misc-const-correctness): gravity changes them
         Doubles vx = a.vx - bvx;
         Doubles vy = a.vy - bvy;
         Doubles doubtful_speed_squared = zero;
+        // NOLINTEND(misc-const-correctness)
         if constexpr (A == Acceleration::kUniform) {
             const Doubles fall_x = since * gx;
             const Doubles fall_y = since * gy;

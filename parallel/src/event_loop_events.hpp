@@ -277,6 +277,7 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
         pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(records_[i].id),
                          bodies_.restitution.of(records_[j].id)),
         i, j, t);
+    // NOLINTNEXTLINE(misc-const-correctness): not where there is an acceleration
     double pressure = 0;  // -f'' / 2 of the squared distance f: positive where the pair is pressed together
     if constexpr (A == Acceleration::kPerBall)
         pressure = -(length_squared<double>(va - vb) + dot<double>(r, acceleration_[i] - acceleration_[j]));
@@ -335,6 +336,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     const double lasting = restitution_at(restitution, i, i, event.time);
     const Vec2 before = {a.vx, a.vy};
     const double length = std::sqrt(length_squared(normal));
+    // NOLINTNEXTLINE(misc-const-correctness): not where there is an acceleration
     double pressure = 0;
     if constexpr (A != Acceleration::kNone) {
         const bool is_round = is_ball || (event.partner < bodies_.first_side() &&
