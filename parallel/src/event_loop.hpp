@@ -130,7 +130,7 @@ class EventLoop {
  protected:
     void touch(const CellCoordinates& cell);
     [[nodiscard]] double radius_of(std::uint32_t i) const {
-        return bodies_.radius.is_one() ? bodies_.largest_listed_radius : radius_[i];
+        return bodies_.radius.is_one() ? bodies_.radius.of(0) : radius_[i];
     }
     /// The place of a cell given in ball i's frame; -1 outside the region.
     [[nodiscard]] std::int32_t place_of(std::uint32_t i, const CellCoordinates& c) const {

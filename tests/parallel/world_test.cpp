@@ -163,6 +163,25 @@ TEST(World, LargeBallOfAnySizeMeetsTheSmallOnes) {
     }
 }
 
+// A period so short that even the smallest balls are wider than a cell with its margin: with equal radii none
+// is in a cell's list. At offset 0.4 the surfaces meet where the centres are sqrt(1 - 0.4^2) apart in height.
+TEST(World, EqualBallsFillANarrowPeriod) {
+    Scene s;
+    s.domain = Domain{{{0, 0}, {1.01, 10}}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
+    s.balls.resize(2);
+    s.balls[0].position = {0.5, 2};
+    s.balls[0].velocity = {0, 1};
+    s.balls[1].position = {0.9, 4};
+    World world(s);
+    std::vector<double> times;
+    world.on_collision([&times](const Collision& c) { times.push_back(c.time); });
+    world.advance_to(1.5);
+    ASSERT_FALSE(times.empty());
+    EXPECT_NEAR(times.front(), 2 - std::sqrt(0.84), 1e-15);
+    world.advance_to(30);
+    EXPECT_TRUE(world.validate().empty());
+}
+
 TEST(World, EmptyAndStaticWorldsStandStill) {
     Scene s;
     s.until = 1;
