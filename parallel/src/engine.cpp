@@ -95,15 +95,10 @@ std::vector<BallRecord> records_at_start(const Bodies& bodies, std::span<const B
     return records;
 }
 
-std::unique_ptr<Engine> make_serial_engine(const Bodies& bodies, std::span<const Ball> balls,
-                                           const Executor& executor) {
-    return std::make_unique<SerialEngine>(bodies, balls, executor);
-}
-
 std::unique_ptr<Engine> make_engine(const Bodies& bodies, std::span<const Ball> balls,
                                     const Executor& executor, const WorldOptions& options) {
     const int domains = choose_domains(bodies, executor, options.domains);
-    if (domains <= 1) return make_serial_engine(bodies, balls, executor);
+    if (domains <= 1) return std::make_unique<SerialEngine>(bodies, balls, executor);
     return make_windowed_engine(bodies, balls, executor, domains, options.halo);
 }
 

@@ -54,8 +54,6 @@ class Engine {
 /// The moving balls at time 0, without predictions.
 [[nodiscard]] std::vector<BallRecord> records_at_start(const Bodies& bodies, std::span<const Ball> balls);
 
-[[nodiscard]] std::unique_ptr<Engine> make_serial_engine(const Bodies& bodies, std::span<const Ball> balls,
-                                                         const Executor& executor);
 [[nodiscard]] std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, std::span<const Ball> balls,
                                                            const Executor& executor, int domains, int halo);
 

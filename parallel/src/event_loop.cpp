@@ -22,7 +22,7 @@ void EventLoop::clear(const Region& region, const Time& now) {
     events_at_once_ = 0;
     events = collisions_of_all = 0;
     const auto empty = [](auto&... tables) { (tables.clear(), ...); };
-    empty(records_, sides_, radius_, acceleration_, last_collision_, large_, notes, collisions, overwritten,
+    empty(records_, locals_, radius_, acceleration_, last_collision_, large_, notes, collisions, overwritten,
           visits, visits_of_copies);
     if (!keeps_window) return;
     touched.assign(static_cast<std::size_t>(region.mark_count()), 0);
@@ -42,17 +42,17 @@ void EventLoop::clear(const Region& region, const Time& now) {
 
 void EventLoop::reserve(std::size_t balls) {
     records_.reserve(balls);
-    sides_.reserve(balls);
+    locals_.reserve(balls);
 }
 
 void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end) {
     const auto i = size();
     BallRecord& r = records_.emplace_back(record);
     r.next.local = kNowhere;
-    Side& side = sides_.emplace_back();
-    side.owned = is_owned ? 1 : 0;
-    side.frame = region_.frame_of(r.anchor.cell);
-    side.end = clock_.since_epoch(end, epoch_);
+    Local& local = locals_.emplace_back();
+    local.owned = is_owned ? 1 : 0;
+    local.frame = region_.frame_of(r.anchor.cell);
+    local.end = clock_.since_epoch(end, epoch_);
     if (!bodies_.radius.is_one()) radius_.push_back(bodies_.radius.of(record.id));
     if (bodies_.accelerates_each()) acceleration_.push_back(extra->acceleration);
     if (bodies_.physics.contact_time > 0) last_collision_.push_back(extra->last_collision);
@@ -66,10 +66,8 @@ void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_ow
 void EventLoop::start() {
     queue_.reset(size());
     for (std::uint32_t i = 0; i < size(); ++i) {
-        sides_[i].asleep = 0;
-        const double key =
-            std::min(clock_.since_epoch(records_[i].next.time, epoch_), records_[i].crossing_time);
-        queue_.put(i, key <= sides_[i].end ? key : std::numeric_limits<double>::infinity());
+        locals_[i].asleep = 0;
+        queue_.put(i, key_of(i));
     }
     queue_.rebuild();
 }
@@ -106,7 +104,7 @@ void EventLoopOf<A>::renew_field(const Time& t) {
         for (std::uint32_t i = 0; i < size(); ++i) {
             advance(i, t);
             settle(i);
-            events += sides_[i].owned;
+            events += locals_[i].owned;
             acceleration_[i] = bodies_.physics.gravity + bodies_.own_acceleration_of(records_[i].id) +
                                field_at(bodies_.attractors, {records_[i].anchor.x, records_[i].anchor.y});
             if (!std::isfinite(length_squared(acceleration_[i])))

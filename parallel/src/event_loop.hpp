@@ -12,11 +12,12 @@
 //   domain's sides after the walls.
 //
 // A loop holds the balls that its domain owns and, where there are other domains, copies of the foreign balls
-// around. Copies follow the same rules as far as their surroundings are known; windows.cpp decides afterwards
-// whether what they did was right. Balls are numbered in the order in which they were added; their ids decide
-// every order that shows.
+// around. Copies follow the same rules as far as their surroundings are known; windowed_domain.cpp decides
+// afterwards whether what they did was right. Balls are numbered in the order in which they were added; their
+// ids decide every order that shows.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -92,15 +93,17 @@ class EventLoop {
     [[nodiscard]] std::uint32_t id(std::uint32_t i) const { return records_[i].id; }
     [[nodiscard]] std::span<const BallRecord> records() const { return records_; }
     /// The anchor of ball i that was overwritten last: index into `overwritten`.
-    [[nodiscard]] std::uint32_t last_overwritten(std::uint32_t i) const { return sides_[i].last_overwritten; }
+    [[nodiscard]] std::uint32_t last_overwritten(std::uint32_t i) const {
+        return locals_[i].last_overwritten;
+    }
     [[nodiscard]] BallExtra extra(std::uint32_t i) const;
     /// Ball i's state at `t` >= its anchor.
     [[nodiscard]] BallState state(std::uint32_t i, const Time& t) const;
     /// A mark of all that ball i has done since clear().
-    [[nodiscard]] std::uint64_t history(std::uint32_t i) const { return sides_[i].history; }
+    [[nodiscard]] std::uint64_t history(std::uint32_t i) const { return locals_[i].history; }
     /// Whether a copy was given up before `end`.
     [[nodiscard]] bool is_lost(std::uint32_t i, const Time& end) const {
-        return sides_[i].end < bodies_.physics.clock.since_epoch(end, epoch_);
+        return locals_[i].end < bodies_.physics.clock.since_epoch(end, epoch_);
     }
     /// Whether a ball of its own went where the loop cannot follow.
     [[nodiscard]] bool has_failed() const { return failed_; }
@@ -125,7 +128,7 @@ class EventLoop {
     std::uint64_t events = 0;             ///< of owned balls: collisions, cell crossings, stale predictions
     std::uint64_t collisions_of_all = 0;  ///< copies' included, for the price of the halo
 
-    [[nodiscard]] bool is_owned(std::uint32_t i) const { return sides_[i].owned != 0; }
+    [[nodiscard]] bool is_owned(std::uint32_t i) const { return locals_[i].owned != 0; }
 
  protected:
     void touch(const CellCoordinates& cell);
@@ -134,8 +137,17 @@ class EventLoop {
     }
     /// The place of a cell given in ball i's frame; -1 outside the region.
     [[nodiscard]] std::int32_t place_of(std::uint32_t i, const CellCoordinates& c) const {
-        return region_.place({c.x + sides_[i].frame.x, c.y + sides_[i].frame.y});
+        return region_.place({c.x + locals_[i].frame.x, c.y + locals_[i].frame.y});
     }
+
+    /// When ball i's entry in the queue comes up, since the start of the epoch.
+    [[nodiscard]] double key_of(std::uint32_t i) const {
+        const double key = locals_[i].asleep ? records_[i].crossing_time
+                                             : std::min(clock_.since_epoch(records_[i].next.time, epoch_),
+                                                        records_[i].crossing_time);
+        return key <= locals_[i].end ? key : std::numeric_limits<double>::infinity();
+    }
+    void schedule(std::uint32_t i) { queue_.set(i, key_of(i)); }
 
     const Bodies& bodies_;
     const Clock clock_;
@@ -143,8 +155,8 @@ class EventLoop {
     CellLists cells_;
     EventQueue queue_;
 
-    // One a ball, in the order of add().
-    struct Side {
+    // One a ball, in the order of add(): what only this loop needs of it.
+    struct Local {
         std::uint64_t history = 0;
         double end =
             std::numeric_limits<double>::infinity();  // when a copy is given up, since the epoch's start
@@ -154,7 +166,7 @@ class EventLoop {
         std::uint8_t asleep = 0;  // its next event is its partner's as well, and in the queue there
     };
     std::vector<BallRecord> records_;
-    std::vector<Side> sides_;
+    std::vector<Local> locals_;
     std::vector<double> radius_;        // only where they differ
     std::vector<Vec2> acceleration_;    // only where it differs from ball to ball
     std::vector<Time> last_collision_;  // only where the contact time is not 0

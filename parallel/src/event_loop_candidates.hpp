@@ -250,15 +250,15 @@ void EventLoopOf<A>::scan_cells(std::uint32_t i, CellCoordinates first, CellCoor
             found.count = found.cell_count = 0;
         }
         found.cells[found.cell_count] = cell;
-        cells_.for_each_block(at, [&](std::span<const std::uint32_t, CellLists::kOverrun> block,
+        cells_.for_each_block(at, [&](std::span<const std::uint32_t, CellLists::kBlockSize> block,
                                       std::size_t used) {
             if (found.count + used > kMostCandidates) {
                 consider_all(i, place, found, best);
                 found.count = 0;
             }
-            std::memcpy(&found.ids[found.count], block.data(), sizeof(std::uint32_t) * CellLists::kOverrun);
+            std::memcpy(&found.ids[found.count], block.data(), sizeof(std::uint32_t) * CellLists::kBlockSize);
             std::memset(&found.from[found.count], static_cast<int>(found.cell_count),
-                        CellLists::kOverrun + 2);
+                        CellLists::kBlockSize + 2);
             found.count += used;
         });
         ++found.cell_count;

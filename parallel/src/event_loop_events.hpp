@@ -46,8 +46,8 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
             refuse_wedged(i);
         }
         if (may_be_tied) i = first_of_ties();
-        events += sides_[i].owned;
-        if (sides_[i].asleep ||
+        events += locals_[i].owned;
+        if (locals_[i].asleep ||
             records_[i].crossing_time <= clock_.since_epoch(records_[i].next.time, epoch_))
             cross(i);
         else
@@ -109,7 +109,7 @@ void EventLoopOf<A>::start_next_epoch(std::int64_t epoch) {
     now_ = 0;
     for (std::uint32_t i = 0; i < size(); ++i) {
         records_[i].crossing_time -= passed;
-        sides_[i].end -= passed;
+        locals_[i].end -= passed;
         queue_.put(i, key_of(i));
     }
     queue_.rebuild();
@@ -158,7 +158,7 @@ void EventLoopOf<A>::collide_first(std::uint32_t i) {
     }
     if (j == kNowhere || records_[j].anchor.stamp != event.stamp)
         expect(i, search(i));  // the partner has gone another way
-    else if (now_ > sides_[j].end)
+    else if (now_ > locals_[j].end)
         lose(i);  // perhaps it has, perhaps not
     else
         collide_pair(i, j, {event.image_x, event.image_y}, event.time);
@@ -191,8 +191,8 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     const Vec2 v = velocity_at(m, since);
     if (keeps_window && is_owned(i)) {
         overwritten.push_back(
-            {a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, sides_[i].last_overwritten});
-        sides_[i].last_overwritten = static_cast<std::uint32_t>(overwritten.size() - 1);
+            {a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, locals_[i].last_overwritten});
+        locals_[i].last_overwritten = static_cast<std::uint32_t>(overwritten.size() - 1);
     }
     const Grid& grid = bodies_.grid;
     Image wrapped;
@@ -204,8 +204,8 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     a.time = t;
     records_[i].periods.x += wrapped.x;
     records_[i].periods.y += wrapped.y;
-    sides_[i].frame.x += wrapped.x * grid.x.count();
-    sides_[i].frame.y += wrapped.y * grid.y.count();
+    locals_[i].frame.x += wrapped.x * grid.x.count();
+    locals_[i].frame.y += wrapped.y * grid.y.count();
     return wrapped;
 }
 
@@ -231,7 +231,7 @@ void EventLoopOf<A>::relist(std::uint32_t i, CellCoordinates cell) {
     }
     a.place = place;
     if (!keeps_window) return;
-    const CellCoordinates here{cell.x + sides_[i].frame.x, cell.y + sides_[i].frame.y};
+    const CellCoordinates here{cell.x + locals_[i].frame.x, cell.y + locals_[i].frame.y};
     if (is_owned(i)) {
         visits.push_back({i, here});
         if (region_.depth(here) > 0) touch(here);
@@ -367,7 +367,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
 template <Acceleration A>
 void EventLoopOf<A>::remember(std::uint32_t i, const Time& t, std::uint32_t partner) {
     if (!keeps_window) return;
-    std::uint64_t h = sides_[i].history;
+    std::uint64_t h = locals_[i].history;
     const auto fold = [&h](std::uint64_t bits, std::uint64_t more) {
         h ^= bits;
         h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL + more;
@@ -375,7 +375,7 @@ void EventLoopOf<A>::remember(std::uint32_t i, const Time& t, std::uint32_t part
     fold(std::bit_cast<std::uint64_t>(t.offset), partner);
     fold(std::bit_cast<std::uint64_t>(records_[i].anchor.vx), 0);
     fold(std::bit_cast<std::uint64_t>(records_[i].anchor.vy), 0);
-    sides_[i].history = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL;
+    locals_[i].history = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL;
 }
 
 template <Acceleration A>

@@ -1,5 +1,6 @@
 // The event loop as a template on how balls accelerate: its declaration. event_loop_search.hpp says what a
-// ball meets next, event_loop_events.hpp what happens then; event_loop.cpp sets up, reads and instantiates.
+// ball meets next, event_loop_candidates.hpp whom it looks at, event_loop_events.hpp what happens then;
+// event_loop.cpp sets up, reads and instantiates.
 #pragma once
 
 #include <array>
@@ -145,13 +146,6 @@ class EventLoopOf final : public EventLoop {
     Image advance(std::uint32_t i, const Time& t);
     void settle(std::uint32_t i);
     [[nodiscard]] Vec2 centres_offset(std::uint32_t i, std::uint32_t j, Image image) const;
-    void schedule(std::uint32_t i) { queue_.set(i, key_of(i)); }
-    [[nodiscard]] double key_of(std::uint32_t i) const {
-        const double key = sides_[i].asleep ? records_[i].crossing_time
-                                            : std::min(clock_.since_epoch(records_[i].next.time, epoch_),
-                                                       records_[i].crossing_time);
-        return key <= sides_[i].end ? key : std::numeric_limits<double>::infinity();
-    }
     [[nodiscard]] Time time_now() const { return clock_.after({epoch_, 0}, now_); }
     /// The speed at which a contact pressed together must part to stay open for the rest time; `line` is its
     /// centre line or normal.

@@ -219,15 +219,15 @@ template <Acceleration A>
 void EventLoopOf<A>::expect(std::uint32_t i, const NextEvent& event) {
     wake_partner(i);
     records_[i].next = event;
-    sides_[i].asleep = 0;
+    locals_[i].asleep = 0;
     if (const std::uint32_t j = event.local; j != kNowhere) {
         NextEvent& theirs = records_[j].next;
-        if (theirs.partner == records_[i].id && theirs.time == event.time && !sides_[j].asleep &&
+        if (theirs.partner == records_[i].id && theirs.time == event.time && !locals_[j].asleep &&
             theirs.stamp == records_[i].anchor.stamp && theirs.image_x == -event.image_x &&
-            theirs.image_y == -event.image_y && clock_.since_epoch(event.time, epoch_) <= sides_[j].end &&
+            theirs.image_y == -event.image_y && clock_.since_epoch(event.time, epoch_) <= locals_[j].end &&
             !(simultaneous_ && records_[i].id < records_[j].id)) {
             theirs.local = i;
-            sides_[i].asleep = 1;
+            locals_[i].asleep = 1;
         }
     }
     schedule(i);
@@ -238,8 +238,8 @@ void EventLoopOf<A>::expect(std::uint32_t i, const NextEvent& event) {
 template <Acceleration A>
 void EventLoopOf<A>::wake_partner(std::uint32_t i) {
     const std::uint32_t j = records_[i].next.local;
-    if (j == kNowhere || !sides_[j].asleep || records_[j].next.local != i) return;
-    sides_[j].asleep = 0;
+    if (j == kNowhere || !locals_[j].asleep || records_[j].next.local != i) return;
+    locals_[j].asleep = 0;
     schedule(j);
 }
 
@@ -248,8 +248,8 @@ template <Acceleration A>
 void EventLoopOf<A>::lose(std::uint32_t i) {
     if (is_owned(i)) failed_ = true;
     wake_partner(i);
-    sides_[i].asleep = 0;
-    sides_[i].end = -std::numeric_limits<double>::infinity();
+    locals_[i].asleep = 0;
+    locals_[i].end = -std::numeric_limits<double>::infinity();
     schedule(i);
 }
 
@@ -263,10 +263,10 @@ void EventLoopOf<A>::tell_lower(std::uint32_t i) {
         if (precedes(theirs, records_[j].next, j)) {
             wake_partner(j);
             records_[j].next = theirs;
-        } else if (!sides_[j].asleep || records_[j].next.local != i) {
+        } else if (!locals_[j].asleep || records_[j].next.local != i) {
             return;
         }
-        sides_[j].asleep = 0;
+        locals_[j].asleep = 0;
         schedule(j);
     };
     const auto tell_if_now = [this, &tell](std::uint32_t j, const NextEvent& event) {
@@ -276,18 +276,14 @@ void EventLoopOf<A>::tell_lower(std::uint32_t i) {
                                                   records_[event.local].anchor.stamp == event.stamp)
         tell(event.local, event);
     const CellCoordinates c = records_[i].anchor.cell;
-    for (std::int32_t y = c.y - 1; y <= c.y + 1; ++y) {
-        for (std::int32_t x = c.x - 1; x <= c.x + 1; ++x) {
-            const std::int32_t place = place_of(i, {x, y});
-            if (place < 0) continue;
-            cells_.for_each(place, [&](std::uint32_t j) {
-                if (records_[j].id >= records_[i].id) return;
-                NextEvent event;
-                consider_listed(i, j, {x, y}, event);
-                tell_if_now(j, event);
-            });
-        }
-    }
+    for_each_place(i, {c.x - 1, c.y - 1}, {c.x + 1, c.y + 1}, [&](std::int32_t place, CellCoordinates cell) {
+        cells_.for_each(place, [&](std::uint32_t j) {
+            if (records_[j].id >= records_[i].id) return;
+            NextEvent event;
+            consider_listed(i, j, cell, event);
+            tell_if_now(j, event);
+        });
+    });
     for (const std::uint32_t j : large_) {
         if (records_[j].id >= records_[i].id) continue;
         NextEvent event;

@@ -160,6 +160,10 @@ struct Region {
     [[nodiscard]] CellCoordinates frame_of(const CellCoordinates& c) const {
         return {x.frame_of(c.x), y.frame_of(c.y)};
     }
+    /// A ball's cell in the region's frame.
+    [[nodiscard]] CellCoordinates framed(const CellCoordinates& c) const {
+        return {c.x + x.frame_of(c.x), c.y + y.frame_of(c.y)};
+    }
 };
 
 /// The whole axis: all that a ball can reach.

@@ -17,15 +17,13 @@ void WindowedEngine::pack(std::uint32_t from, const Region& region, std::vector<
     const DomainState& source = domains_[from];
     if (!region.x.meets(source.cells_x) || !region.y.meets(source.cells_y)) return;
     for (std::uint32_t k = 0; k < source.records.size(); ++k) {
-        CellCoordinates c = source.cells[k];
+        const CellCoordinates& c = source.cells[k];
         if (!region.x.covers(c.x) || !region.y.covers(c.y)) continue;
-        c.x += region.x.frame_of(c.x);
-        c.y += region.y.frame_of(c.y);
         BallMessage& ball = message.emplace_back();
         ball.record = source.records[k];
         if (!source.extras.empty()) ball.extra = source.extras[k];
         ball.origin = {from, k};
-        ball.depth = region.depth(c);
+        ball.depth = region.depth(region.framed(c));
     }
 }
 
@@ -82,7 +80,6 @@ void WindowedEngine::run(DomainState& d, const Time& window_end, bool inclusive)
 
 void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& window_end) {
     EventLoop& loop = *w.loop;
-    d.results.clear();
     d.result_extras.clear();
     d.last_overwritten.clear();
     d.copies.clear();
@@ -105,9 +102,8 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     d.copies.reserve(loop.size() - w.own);
     for (std::uint32_t i = w.own; i < loop.size(); ++i) {
         const CellCoordinates c = domains_[w.origins[i].domain].cells[w.origins[i].index];
-        const CellCoordinates frame = d.region.frame_of(c);
-        d.copies.push_back({w.origins[i], loop.history(i), d.region.mark({c.x + frame.x, c.y + frame.y}),
-                            loop.is_lost(i, window_end)});
+        d.copies.push_back(
+            {w.origins[i], loop.history(i), d.region.mark(d.region.framed(c)), loop.is_lost(i, window_end)});
     }
     for (const Visit& v : loop.visits_of_copies)
         d.copy_visits.push_back({v.ball - w.own, d.region.mark(v.cell)});
@@ -133,8 +129,7 @@ bool WindowedEngine::agrees(const DomainState& d) const {
     for (const DomainState& other : domains_) {
         if (&other == &d || !d.region.meets(other.region)) continue;
         for (const OwnVisit& v : other.visits) {
-            const CellCoordinates frame = d.region.frame_of(v.cell);
-            const std::int32_t mark = d.region.mark({v.cell.x + frame.x, v.cell.y + frame.y});
+            const std::int32_t mark = d.region.mark(d.region.framed(v.cell));
             if (mark < 0 || !d.touched[static_cast<std::size_t>(mark)]) continue;
             const auto copy = std::ranges::lower_bound(d.copies, v.origin, {}, &CopyOutcome::origin);
             if (copy == d.copies.end() || copy->origin != v.origin ||

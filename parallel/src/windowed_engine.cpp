@@ -115,7 +115,6 @@ void WindowedEngine::predict_anew(bool renews_field) {
         if (renews_field) w.loop->renew_field(window_start_);
         w.loop->predict_all(nullptr);
         d.events = w.loop->events;
-        d.results.clear();
         d.result_extras.clear();
         d.results.assign(w.loop->records().begin(), w.loop->records().begin() + w.own);
         for (std::uint32_t i = 0; bodies_.needs_extras() && i < w.own; ++i)

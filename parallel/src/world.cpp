@@ -78,14 +78,15 @@ std::uint64_t mix(std::uint64_t h) {
 class World::State {
  public:
     State(const Scene& scene, const WorldOptions& options) : State(scene, options, place_checked(scene)) {}
-
     State(const Scene& scene, const WorldOptions& options, const std::vector<Ball>& balls)
+        : State(scene, options, balls, derive_physics(scene, balls)) {}
+    State(const Scene& scene, const WorldOptions& options, const std::vector<Ball>& balls,
+          const Physics& physics)
         : executor(options.threads),
           field_interval(scene.field_interval),
-          in_equilibrium(is_in_equilibrium(scene, balls)),
-          bodies(derive_physics(scene, balls), balls, scene.walls, scene.attractors,
-                 choose_grid(scene, balls, options.cell_size)) {
-        in_equilibrium = in_equilibrium && !bodies.physics.loses_energy;
+          in_equilibrium(!physics.loses_energy && is_free(scene, balls)),
+          bodies(physics, balls, scene.walls, scene.attractors,
+                 choose_grid(physics.domain, balls.size(), listed_diameter(balls), options.cell_size)) {
         engine = make_engine(bodies, balls, executor, options);
         for (std::uint32_t i = 0; i < bodies.count; ++i)
             if (bodies.fixes(i))
@@ -149,15 +150,10 @@ class World::State {
         seconds = time;
     }
 
-    static bool is_in_equilibrium(const Scene& scene, const std::vector<Ball>& balls) {
+    static bool is_free(const Scene& scene, const std::vector<Ball>& balls) {
         return scene.gravity.isZero(0) && scene.attractors.empty() &&
                std::ranges::all_of(balls, [](const Ball& b) { return b.acceleration.isZero(0); });
     }
-    static Grid choose_grid(const Scene& scene, const std::vector<Ball>& balls, double cell_size) {
-        return carom::choose_grid(derive_physics(scene, balls).domain, balls.size(), listed_diameter(balls),
-                                  cell_size);
-    }
-
     Executor executor;
     double field_interval;
     std::uint64_t field_updates = 0;

@@ -62,7 +62,6 @@ class CellLists {
 
     [[nodiscard]] const Block& first_block(std::int32_t cell) const { return blocks_[cell]; }
     /// Calls f(ids, count) for every block of a cell: the first `count` of the ids are in it.
-    static constexpr std::size_t kOverrun = kBlockSize;
     template <class F>
     void for_each_block(std::int32_t cell, F&& f) const {
         for (std::int32_t b = cell; b >= 0; b = blocks_[b].next)

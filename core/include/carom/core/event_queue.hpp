@@ -18,9 +18,14 @@ namespace carom {
 class EventQueue {
  public:
     EventQueue() = default;
-    explicit EventQueue(std::size_t count) { reset(count); }
-
     /// `count` entries, all at infinity.
+    explicit EventQueue(std::size_t count) {
+        reset(count);
+        for (std::size_t i = 0; i < count; ++i) put(static_cast<std::uint32_t>(i), keys_[i]);
+        rebuild();
+    }
+
+    /// `count` entries, each to be put() before rebuild().
     void reset(std::size_t count) {
         count_ = std::max<std::size_t>(count, 1);
         id_mask_ = std::bit_ceil(count_) - 1;
@@ -33,8 +38,6 @@ class EventQueue {
             size += padded;
         }
         nodes_.assign(size, kEmpty);
-        for (std::size_t i = 0; i < count_; ++i) put(static_cast<std::uint32_t>(i), keys_[i]);
-        rebuild();
     }
 
     /// Changes one key of many; call rebuild() before the next first(). Keys are >= 0, infinity included.
