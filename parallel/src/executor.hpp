@@ -14,11 +14,8 @@ class Executor {
  public:
     /// `threads` <= 0: as many as the machine offers.
     explicit Executor(int threads);
-    ~Executor();
-    Executor(Executor&&) noexcept;
-    Executor& operator=(Executor&&) noexcept;
 
-    [[nodiscard]] int threads() const;
+    [[nodiscard]] int threads() const { return threads_; }
     /// Calls body(first, last) for disjoint parts of [0, count), each at most `grain` long, side by side.
     void for_ranges(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, std::size_t)>& body) const;
@@ -40,8 +37,8 @@ class Executor {
     }
 
  private:
-    struct Arena;
-    std::unique_ptr<Arena> arena_;
+    int threads_;
+    std::shared_ptr<void> arena_;  // what the back end keeps
 };
 
 }  // namespace carom

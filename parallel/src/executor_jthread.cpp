@@ -10,20 +10,8 @@
 
 namespace carom {
 
-struct Executor::Arena {
-    int threads;
-};
-
 Executor::Executor(int threads)
-    : arena_(std::make_unique<Arena>(
-          threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())))) {}
-Executor::~Executor() = default;
-Executor::Executor(Executor&&) noexcept = default;
-Executor& Executor::operator=(Executor&&) noexcept = default;
-
-int Executor::threads() const {
-    return arena_->threads;
-}
+    : threads_(threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {}
 
 void Executor::for_ranges(std::size_t count, std::size_t grain,
                           const std::function<void(std::size_t, std::size_t)>& body) const {
