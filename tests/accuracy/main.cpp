@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kUsage =
     "carom_accuracy [--queries N] [--collisions N] [--check-every N] [--only TABLE]\n"
-    "  --queries N      queries a kind (100000); 10000000 takes hours for the quartic\n"
+    "  --queries N      queries a kind (100000); 10000000 takes about half an hour for a table\n"
     "  --collisions N   collisions of the longest drift (10000000)\n"
     "  --check-every N  one query in N goes to the slow oracles as well (1000)\n"
     "  --only TABLE     straight, curved, walls, seam, response, drift or speed\n";

@@ -16,8 +16,9 @@ __extension__ typedef __float128 Quad;
 /// For times and bounds, which need the range of Quad but not its digits.
 using Wide = long double;
 
-/// Half an ulp of 1 in Quad.
+/// Half an ulp of 1 in Quad, and in Wide.
 inline constexpr Wide kQuadUnit = 0x1p-113L;
+inline constexpr Wide kWideUnit = LDBL_EPSILON / 2;
 
 inline Quad magnitude(Quad x) {
     return x < 0 ? -x : x;

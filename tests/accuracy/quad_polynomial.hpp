@@ -35,19 +35,36 @@ inline Sum product_sum(const Vec2& a, const Vec2& b) {
     return sum;
 }
 
-/// Up to degree 4, from the constant up. `size` bounds the terms that each coefficient is the sum of, at most
-/// six of them, each of a few roundings: a coefficient errs by less than 8 kQuadUnit of its size.
-struct QuadPolynomial {
+/// Up to degree 4, from the constant up, in the digits of T.
+template <class T>
+struct Polynomial {
     int degree = 0;
-    std::array<Quad, 5> c{};
+    std::array<T, 5> c{};
+
+    [[nodiscard]] T value(T t) const {
+        T sum = 0;
+        for (int i = degree; i >= 0; --i) sum = sum * t + c[static_cast<std::size_t>(i)];
+        return sum;
+    }
+    [[nodiscard]] T slope(T t) const {
+        T sum = 0;
+        for (int i = degree; i > 0; --i) sum = sum * t + T(i) * c[static_cast<std::size_t>(i)];
+        return sum;
+    }
+};
+
+/// `size` bounds the terms that each coefficient is the sum of, at most six of them, each of a few roundings:
+/// a coefficient errs by less than 8 kQuadUnit of its size.
+struct QuadPolynomial : Polynomial<Quad> {
     std::array<Wide, 5> size{};
 
-    [[nodiscard]] Quad value(Quad t) const;
-    [[nodiscard]] Quad slope(Quad t) const;
-    /// Bound of the error of a value, or of a coefficient in Bernstein's basis, within [0, t].
-    [[nodiscard]] Wide error(Wide t) const;
+    /// Bound of the error of a value, or of a coefficient in Bernstein's basis, within [0, t]; computed in
+    /// numbers of which half an ulp of 1 is `unit`.
+    [[nodiscard]] Wide error(Wide t, Wide unit = kQuadUnit) const;
     /// 1, -1, or 0 where rounding hides it.
     [[nodiscard]] int sign_at(Wide t) const;
+    /// The same coefficients with 64 bits.
+    [[nodiscard]] Polynomial<Wide> rounded() const;
 };
 
 /// |r + v t + a t^2 / 2|^2 - s^2

@@ -125,10 +125,15 @@ bool starts_outside(const WallQuery& q) {
     return (q.centre.position - nearest).norm() > q.radius + slack;
 }
 
-/// With the radius half an ulp of everything larger it hits, with the radius so much smaller it does not.
-bool in_band(const WallQuery& q, Quad time) {
-    const Quad change = contact_at(q, time).gap_change;
-    return wall_truth(q, change).verdict != Verdict::kMiss && wall_truth(q, -change).verdict != Verdict::kHit;
+/// With the radius half an ulp of everything larger it hits, with the radius so much smaller it does not, or
+/// elsewhere: with -g t + k t^2 / 2 the gap at the hit, it falls below -c, where it ever does, within 2 c /
+/// g.
+bool in_band(const WallQuery& q, const Contact& contact, Quad time) {
+    const Quad change = contact.gap_change;
+    if (wall_truth(q, change).verdict == Verdict::kMiss) return false;
+    const WallTruth smaller = wall_truth(q, -change);
+    return smaller.verdict != Verdict::kHit ||
+           static_cast<Wide>(smaller.time - time) > 3 * contact.gap_change / contact.rate;
 }
 
 bool agrees_in_many_digits(const WallQuery& q, const WallTruth& truth, Wide slack) {
@@ -176,9 +181,9 @@ Tally measure(const WallKind& kind, std::uint64_t seed, const Effort& effort) {
         tally.hits += hit ? 1 : 0;
         if (!hit && !(found < kNever)) continue;
         const Quad time = hit ? truth.time : Quad(found);
-        const bool band = in_band(q, time);
-        tally.band += band ? 1 : 0;
         const Contact contact = contact_at(q, time);
+        const bool band = in_band(q, contact, time);
+        tally.band += band ? 1 : 0;
         const Wide unit = contact.gap_change / contact.rate + half_ulp(static_cast<double>(time));
         const Wide error = hit && found < kNever ? static_cast<Wide>(magnitude(Quad(found) - time)) : Wide(0);
         const bool missed = hit && !(error <= kOtherRoot * unit && found < kNever);
