@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "picture_file.hpp"
@@ -65,6 +66,17 @@ CLI::Validator xyz_path() {
                 return good ? std::string() : fmt::format("unknown format '{}' (known: .xyz)", extension);
             },
             ""};
+}
+
+CLI::Option* add_precision_option(CLI::App& command, const std::string& name,
+                                  std::optional<Precision>& precision, const std::string& description) {
+    const std::map<std::string, Precision> words = {{"double", Precision::kDouble},
+                                                    {"float", Precision::kFloat}};
+    return command
+        .add_option_function<std::string>(
+            name, [&precision, words](const std::string& word) { precision = words.at(word); }, description)
+        ->option_text("double|float")
+        ->check(CLI::IsMember(words));
 }
 
 void add_threads_option(CLI::App& command, int& threads) {

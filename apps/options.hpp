@@ -1,7 +1,12 @@
 // Checks of option values that several subcommands share.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include <CLI/CLI.hpp>
+
+#include <carom/core/precision.hpp>
 
 namespace carom::app {
 
@@ -15,6 +20,10 @@ namespace carom::app {
 [[nodiscard]] CLI::Validator picture_size_text();
 /// A path that ends in .xyz.
 [[nodiscard]] CLI::Validator xyz_path();
+
+/// Adds an option that takes `double` or `float`.
+CLI::Option* add_precision_option(CLI::App& command, const std::string& name,
+                                  std::optional<Precision>& precision, const std::string& description);
 
 /// Adds --threads to a command; 0 stands for all of the machine's.
 void add_threads_option(CLI::App& command, int& threads);

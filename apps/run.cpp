@@ -43,6 +43,10 @@ void listen(World& world, Driver& driver, EventsCsv& events) {
     });
 }
 
+Precision output_precision(const Scene& scene, const RunOptions& options) {
+    return options.output_precision.value_or(scene.precision);
+}
+
 // Moves the world from stop to stop: frames, steps, the end. False when interrupted.
 bool move_to_end(World& world, Driver& driver, const Scene& scene, double until, const RunOptions& options,
                  RunOutputs& outputs) {
@@ -50,7 +54,8 @@ bool move_to_end(World& world, Driver& driver, const Scene& scene, double until,
     Multiples steps(options.step.value_or(1), options.step ? until : 0);
     double last_frame = -1;
     const auto write_frame = [&] {
-        outputs.trajectory->write(world.time(), world.balls(), scene.domain);
+        outputs.trajectory->write(world.time(), world.balls(), scene.domain,
+                                  output_precision(scene, options));
         last_frame = world.time();
     };
     bool going = true;
@@ -88,6 +93,7 @@ Summary summary_of(const World& world, const Scene& scene, const Balance& start,
     const Counts counts = world.counts();
     Summary summary;
     summary.scene = scene.name;
+    summary.precision = scene.precision == Precision::kFloat ? "float" : "double";
     summary.threads = world.threads();
     summary.balls = world.ball_count();
     summary.walls = world.wall_count();
@@ -115,7 +121,7 @@ void write_end(const World& world, const Scene& scene, const RunOptions& options
     if (outputs.events) outputs.events->commit();
     if (outputs.final_state) {
         std::string text;
-        append_xyz(text, world.time(), world.balls(), scene.domain);
+        append_xyz(text, world.time(), world.balls(), scene.domain, output_precision(scene, options));
         outputs.final_state->write(text);
         outputs.final_state->commit();
     }

@@ -18,6 +18,8 @@ struct RunOptions {
     std::optional<double> until;
     int threads = 0;
     std::optional<double> step;
+    std::optional<Precision> precision;         ///< none: the scene's
+    std::optional<Precision> output_precision;  ///< none: the simulation's
     double cell_size = 0;
     int domains = 0;
     int halo = 0;

@@ -40,7 +40,8 @@ int run(const RunOptions& options) {
                                      {"--final", options.final_state},
                                      {"--picture", options.picture},
                                      {"--summary", options.summary}});
-    const Scene scene = read_scene(options.scene);
+    Scene scene = read_scene(options.scene);
+    scene.precision = options.precision.value_or(scene.precision);
     const double until = options.until.value_or(scene.until);
     RunOutputs outputs(options);
     watch_for_interrupts();
@@ -67,6 +68,9 @@ void add_output_options(CLI::App& command, RunOptions& options) {
     every->option_text("DT")->check(positive_number())->group(group);
     trajectory->needs(every);
     every->needs(trajectory);
+    add_precision_option(command, "--output-precision", options.output_precision,
+                         "Of positions and velocities in .xyz files (default: as simulated)")
+        ->group(group);
     command.add_option("--events", options.events, "Every collision, in time order")
         ->type_name("FILE.csv")
         ->group(group);
@@ -97,6 +101,9 @@ void add_run_command(CLI::App& app, int& status) {
         ->type_name("T")
         ->check(number_from_zero());
     add_threads_option(*command, options->threads);
+    add_precision_option(
+        *command, "--precision", options->precision,
+        "Hold balls' states in this type instead of the scene's; float rounds at each event");
     command
         ->add_option("--step", options->step,
                      "Advance in steps of this length. Never changes a bit of the result")

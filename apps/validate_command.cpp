@@ -64,7 +64,7 @@ int validate(const std::string& path) {
     Scene scene = read_scene(path);
     scene.balls = place_balls(scene);
     scene.fills.clear();
-    check_overlaps(scene.balls, scene);
+    if (!scene.allows_overlap) check_overlaps(scene.balls, scene);
     // Whatever else the engine asks of a scene, it asks when it is built.
     const World world(scene);
 
@@ -83,6 +83,7 @@ int validate(const std::string& path) {
                      [](const Ball& ball) { return std::hypot(ball.velocity.x(), ball.velocity.y()); })) +
         row("domain", domain_text(scene)) + row("packing", packing_text(scene, scene.balls)) +
         row("gravity", fmt::format("({:.6g}, {:.6g})", scene.gravity.x(), scene.gravity.y())) +
+        row("precision", scene.precision == Precision::kFloat ? "float" : "double") +
         row("contact time", fmt::format("{:.6g}", world.contact_time())) +
         row("until", fmt::format("{:.6g}", scene.until)));
     return kGood;

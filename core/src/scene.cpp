@@ -16,6 +16,8 @@ constexpr double kLargest = 1e100;
 constexpr double kSmallest = 1e-100;
 // Ids are 32 bits, and this many balls already take some ten gigabytes.
 constexpr double kMostBalls = 1e8;
+// Within this range float does not overflow on the way of a simulation.
+constexpr double kLargestInFloat = 1e30;
 // A position computed as side + radius is off by an ulp or two of the side.
 constexpr double kSideTolerance = 1e-12;
 // Packing of equal discs in the triangular lattice, the densest there is: pi / (2 sqrt 3).
@@ -250,10 +252,20 @@ void check_widths(const Scene& scene, const Domain& domain) {
     }
 }
 
+void require_range_of_float(const Vec2& v, const Place& at, std::string_view field) {
+    if (!(v.cwiseAbs().maxCoeff() <= kLargestInFloat))
+        throw SceneError(at.of(field),
+                         "must lie within -1e30 and 1e30 where precision is float, is " + text(v));
+}
+
 void check_rules(const Scene& scene) {
     if (scene.domain) {
         require_area(scene.domain->box, kScene, "domain");
         require_restitution(scene.domain->restitution, kScene, "domain.restitution");
+        if (scene.precision == Precision::kFloat) {
+            require_range_of_float(scene.domain->box.min, kScene, "domain.min");
+            require_range_of_float(scene.domain->box.max, kScene, "domain.max");
+        }
     }
     require_finite(scene.gravity, kScene, "gravity");
     if (scene.contact_time) require_not_negative(*scene.contact_time, kScene, "contact_time");
@@ -272,6 +284,9 @@ void check(const Scene& scene) {
     for (std::size_t i = 0; i < scene.balls.size(); ++i) {
         check_ball(scene.balls[i], {"balls", i});
         if (scene.domain) check_inside(scene.balls[i], *scene.domain, {"balls", i});
+        if (scene.precision != Precision::kFloat) continue;
+        require_range_of_float(scene.balls[i].position, {"balls", i}, "position");
+        require_range_of_float(scene.balls[i].velocity, {"balls", i}, "velocity");
     }
     for (std::size_t i = 0; i < scene.fills.size(); ++i)
         check_fill(scene.fills[i], scene.domain, {"fill", i});

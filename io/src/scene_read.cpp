@@ -21,9 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 using Keys = std::string_view[];
 
-constexpr Keys kSceneKeys = {"name",         "domain",         "gravity", "restitution_rule", "contact_time",
-                             "speed_factor", "balls",          "fill",    "balls_file",       "walls",
-                             "attractors",   "field_interval", "until",   "description",      "$schema"};
+constexpr Keys kSceneKeys = {
+    "name",  "domain",      "gravity", "restitution_rule", "contact_time",   "speed_factor", "balls",
+    "fill",  "balls_file",  "walls",   "attractors",       "field_interval", "precision",    "allow_overlap",
+    "until", "description", "$schema"};
 constexpr Keys kDomainKeys = {"min", "max", "boundary", "restitution"};
 constexpr Keys kBallKeys = {"position", "velocity",    "acceleration", "radius",
                             "mass",     "restitution", "static"};
@@ -41,6 +42,8 @@ constexpr std::array<std::pair<std::string_view, RestitutionRule>, 5> kRules = {
      {"product", RestitutionRule::kProduct},
      {"mean", RestitutionRule::kMean},
      {"geometric", RestitutionRule::kGeometric}}};
+constexpr std::array<std::pair<std::string_view, Precision>, 2> kPrecisions = {
+    {{"double", Precision::kDouble}, {"float", Precision::kFloat}}};
 
 /// The enumerator that the string names.
 template <class Table>
@@ -176,6 +179,10 @@ class SceneReader {
             scene_.contact_time = read_number(value, place);
         else if (key == "speed_factor")
             scene_.speed_factor = read_number(value, place);
+        else if (key == "precision")
+            scene_.precision = read_word(kPrecisions, value, place);
+        else if (key == "allow_overlap")
+            scene_.allows_overlap = read_flag(value, place);
         else if (key == "field_interval")
             scene_.field_interval = read_number(value, place);
         else if (key == "until")

@@ -172,6 +172,8 @@ std::string write_scene(const Scene& scene) {
         object.raw("restitution_rule", fmt::format("\"{}\"", word(scene.restitution_rule)));
     if (scene.contact_time) object.put("contact_time", *scene.contact_time);
     object.put_unless(usual.speed_factor, "speed_factor", scene.speed_factor);
+    if (scene.precision == Precision::kFloat) object.raw("precision", "\"float\"");
+    if (scene.allows_overlap) object.raw("allow_overlap", "true");
     put_list(object, "balls", scene.balls);
     put_list(object, "fill", scene.fills);
     put_list(object, "walls", scene.walls);

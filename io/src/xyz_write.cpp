@@ -53,7 +53,7 @@ void append_comment(std::string& text, double time, const std::optional<Domain>&
 }  // namespace
 
 void append_xyz(std::string& text, double time, std::span<const Ball> balls,
-                const std::optional<Domain>& domain) {
+                const std::optional<Domain>& domain, Precision precision) {
     const ExtraColumns extra = extra_columns(balls);
     fmt::memory_buffer buffer;
     const auto out = std::back_inserter(buffer);
@@ -62,8 +62,15 @@ void append_xyz(std::string& text, double time, std::span<const Ball> balls,
     constexpr std::size_t kPieceSize = std::size_t{1} << 16;
     for (std::size_t id = 0; id < balls.size(); ++id) {
         const Ball& ball = balls[id];
-        fmt::format_to(out, "{} X {} {} 0 {} {} 0 {} {}", id, ball.position.x(), ball.position.y(),
-                       ball.velocity.x(), ball.velocity.y(), ball.radius, ball.mass);
+        const auto put_state = [&](const auto& x, const auto& v) {
+            fmt::format_to(out, "{} X {} {} 0 {} {} 0", id, x.x(), x.y(), v.x(), v.y());
+        };
+        if (precision == Precision::kFloat)
+            put_state(Vector2<float>(ball.position.cast<float>()),
+                      Vector2<float>(ball.velocity.cast<float>()));
+        else
+            put_state(ball.position, ball.velocity);
+        fmt::format_to(out, " {} {}", ball.radius, ball.mass);
         if (extra.acceleration) fmt::format_to(out, " {} {} 0", ball.acceleration.x(), ball.acceleration.y());
         if (extra.restitution) fmt::format_to(out, " {}", ball.restitution);
         if (extra.is_static) fmt::format_to(out, " {}", ball.is_static ? 'T' : 'F');
@@ -97,9 +104,10 @@ XyzTrajectory::~XyzTrajectory() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void XyzTrajectory::write(double time, std::span<const Ball> balls, const std::optional<Domain>& domain) {
+void XyzTrajectory::write(double time, std::span<const Ball> balls, const std::optional<Domain>& domain,
+                          Precision precision) {
     text_.clear();
-    append_xyz(text_, time, balls, domain);
+    append_xyz(text_, time, balls, domain, precision);
     std::string_view rest = text_;
     while (!rest.empty()) {
         const ssize_t written = ::write(descriptor_, rest.data(), rest.size());

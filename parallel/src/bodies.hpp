@@ -9,6 +9,7 @@
 #include <carom/broadphase/grid.hpp>
 #include <carom/broadphase/obstacles.hpp>
 
+#include "ball_record.hpp"
 #include "physics.hpp"
 
 namespace carom {
@@ -64,6 +65,12 @@ struct Bodies {
     [[nodiscard]] bool accelerates_each() const { return !own_acceleration.empty() || !attractors.empty(); }
     /// Whether balls carry a BallExtra.
     [[nodiscard]] bool needs_extras() const { return accelerates_each() || physics.contact_time > 0; }
+    /// A position as an anchor holds it: in the box, and rounded where states are held in float. Counts the
+    /// periods that it was away.
+    [[nodiscard]] Vec2 held_position(const Vec2& position, Periods& away) const;
+    [[nodiscard]] Vec2 held_velocity(const Vec2& velocity) const {
+        return physics.in_float ? rounded_to_float(velocity) : velocity;
+    }
     /// Events are with partners numbered so: balls, then walls, then the domain's sides.
     [[nodiscard]] std::uint32_t first_side() const {
         return count + static_cast<std::uint32_t>(walls.size());

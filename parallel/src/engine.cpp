@@ -87,9 +87,9 @@ std::vector<BallRecord> records_at_start(const Bodies& bodies, std::span<const B
         if (bodies.fixes(i)) continue;
         const Ball& b = balls[i];
         BallRecord& r = records.emplace_back();
-        const double x = bodies.grid.x.wrapped(b.position.x(), r.periods.x);
-        const double y = bodies.grid.y.wrapped(b.position.y(), r.periods.y);
-        r.anchor = {x, y, b.velocity.x(), b.velocity.y(), {}, 0, 0, bodies.grid.coordinates({x, y})};
+        const Vec2 x = bodies.held_position(b.position, r.periods);
+        const Vec2 v = bodies.held_velocity(b.velocity);
+        r.anchor = {x.x(), x.y(), v.x(), v.y(), {}, 0, 0, bodies.grid.coordinates(x)};
         r.id = i;
     }
     return records;

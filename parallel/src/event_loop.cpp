@@ -149,9 +149,9 @@ BallState state_at(const Bodies& bodies, const Anchor& anchor, const Periods& pe
                            {anchor.vx, anchor.vy},
                            bodies.accelerates_each() ? acceleration : bodies.physics.gravity};
     const Vec2 x = position_at(m, since);
-    std::int32_t ignored = 0;
-    return {{bodies.grid.x.wrapped(x.x(), ignored), bodies.grid.y.wrapped(x.y(), ignored)},
-            velocity_at(m, since),
+    Periods ignored;
+    return {bodies.held_position(x, ignored),
+            bodies.held_velocity(velocity_at(m, since)),
             {x.x() + double(periods.x) * bodies.grid.x.length(),
              x.y() + double(periods.y) * bodies.grid.y.length()}};
 }

@@ -187,16 +187,15 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     Anchor& a = records_[i].anchor;
     const double since = clock_.difference(t, a.time);
     const Motion<double> m = motion_of(i);
-    const Vec2 x = position_at(m, since);
-    const Vec2 v = velocity_at(m, since);
+    const Vec2 v = bodies_.held_velocity(velocity_at(m, since));
     if (keeps_window && is_owned(i)) {
         overwritten.push_back(
             {a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, locals_[i].last_overwritten});
         locals_[i].last_overwritten = static_cast<std::uint32_t>(overwritten.size() - 1);
     }
     const Grid& grid = bodies_.grid;
-    Image wrapped;
-    const Vec2 inside = {grid.x.wrapped(x.x(), wrapped.x), grid.y.wrapped(x.y(), wrapped.y)};
+    Periods wrapped;
+    const Vec2 inside = bodies_.held_position(position_at(m, since), wrapped);
     a.x = inside.x();
     a.y = inside.y();
     a.vx = v.x();
@@ -206,7 +205,7 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     records_[i].periods.y += wrapped.y;
     locals_[i].frame.x += wrapped.x * grid.x.count();
     locals_[i].frame.y += wrapped.y * grid.y.count();
-    return wrapped;
+    return {wrapped.x, wrapped.y};
 }
 
 /// After an event: finds the ball's cell anew and marks every prediction about the ball as stale.
@@ -285,7 +284,7 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     double impulse = 0;  // along the unit normal
     const PairVelocities<double> after =
         collide(va, vb, r, bodies_.mass.of(records_[i].id), bodies_.mass.of(records_[j].id), restitution,
-                separation, &impulse);
+                separation, &impulse, [this](const Vec2& v) { return bodies_.held_velocity(v); });
     a.vx = after.a.x();
     a.vy = after.a.y();
     b.vx = after.b.x();
@@ -346,8 +345,9 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     const double separation = parting_speed(pressure, normal);
     const double factor =
         bodies_.physics.contact_time > 0 && lasting != restitution ? 1 : bodies_.physics.speed_factor;
-    Vec2 after = bounce<double>(before, normal, lasting, separation / factor);
-    if (factor != 1) after *= factor;
+    const Vec2 after = bounce<double>(before, normal, lasting, separation / factor, [&](const Vec2& v) {
+        return bodies_.held_velocity(factor == 1 ? v : Vec2(v * factor));
+    });
     a.vx = after.x();
     a.vy = after.y();
     remember(i, event.time, event.partner);

@@ -107,6 +107,7 @@ Physics derive_physics(const Scene& scene, std::span<const Ball> balls) {
     p.gravity = scene.gravity;
     p.restitution_rule = scene.restitution_rule;
     p.speed_factor = scene.speed_factor;
+    p.in_float = scene.precision == Precision::kFloat;
     const double natural = std::min(crossing_time, falling_time);
     if (!(natural > 0)) throw SceneError("attractors", "pull so hard on a ball that no time is short enough");
     p.clock = Clock(kEpochCrossings * (std::isfinite(natural) ? natural : 1.0));

@@ -15,6 +15,7 @@ struct Physics {
     double contact_time = 0;  ///< of the TC model; 0 turns it off
     double rest_time = 0;     ///< a contact under pressure parts for at least so long, see scales.cpp
     double speed_factor = 1;
+    bool in_float = false;      ///< balls' states are rounded to float at each event
     bool loses_energy = false;  ///< some restitution, or the speed factor, is below 1
     double typical_virial = 1;  ///< of a collision: mass * speed * diameter
     Clock clock;

@@ -103,6 +103,39 @@ TEST(Program, WrongUsageIsOneLineAndStatusTwo) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"s.json"}));
 }
 
+// Simulated in float, or in double and written in float: other trajectories, fewer digits.
+TEST(Program, PrecisionOfTheSimulationAndOfItsOutput) {
+    const Folder folder;
+    folder.write("s.json", busy_scene("periodic"));
+    const auto run = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"run", "s.json", "--quiet", "--final", "end.xyz"});
+        return folder.run(options).out;
+    };
+    const std::string in_double = run({});
+    EXPECT_THAT(in_double, HasSubstr("\"precision\": \"double\""));
+    const std::string digits = folder.read("end.xyz");
+    const auto hash = [](const std::string& summary) { return summary.substr(summary.find("state_hash")); };
+
+    const std::string read_in_float = run({"--output-precision", "float"});
+    EXPECT_EQ(hash(read_in_float), hash(in_double)) << "the simulation is the same";
+    EXPECT_LT(folder.read("end.xyz").size(), 0.7 * double(digits.size()));
+
+    const std::string in_float = run({"--precision", "float"});
+    EXPECT_THAT(in_float, HasSubstr("\"precision\": \"float\""));
+    EXPECT_NE(hash(in_float), hash(in_double));
+    EXPECT_LT(folder.read("end.xyz").size(), 0.7 * double(digits.size()));
+    EXPECT_EQ(hash(run({"--precision", "float", "--threads", "1", "--step", "0.3"})), hash(in_float));
+    expect_one_error(folder.run({"run", "s.json", "--precision", "half"}), 2, "--precision");
+}
+
+TEST(Program, OverlapIsAllowedWhereTheSceneSaysSo) {
+    const Folder folder;
+    folder.write("s.json", R"({"allow_overlap": true, "until": 1,
+        "balls": [{"position": [0, 0], "velocity": [1, 0]}, {"position": [0.5, 0]}]})");
+    EXPECT_EQ(folder.run({"validate", "s.json"}).status, 0);
+    EXPECT_THAT(folder.run({"run", "s.json", "--quiet"}).out, HasSubstr("\"ball_collisions\": 1,"));
+}
+
 TEST(Program, WrongInputOrOutputIsOneLineAndStatusOne) {
     const Folder folder;
     folder.write("s.json", kOneBall);

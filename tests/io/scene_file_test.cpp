@@ -47,6 +47,8 @@ TEST(SceneFile, HasTheDefaultsOfTheFormat) {
     EXPECT_EQ(scene.restitution_rule, RestitutionRule::kMin);
     EXPECT_FALSE(scene.contact_time);
     EXPECT_EQ(scene.speed_factor, 1);
+    EXPECT_EQ(scene.precision, Precision::kDouble);
+    EXPECT_FALSE(scene.allows_overlap);
     EXPECT_EQ(scene.field_interval, 0.02);
     EXPECT_EQ(scene.until, 10);
     ASSERT_EQ(scene.balls.size(), 1U);
@@ -64,6 +66,7 @@ TEST(SceneFile, ReadsEveryKey) {
         "$schema": "../schemas/scene.schema.json", "name": "Alles", "description": "one of everything",
         "domain": {"min": [-50, 0], "max": [100, 200], "boundary": ["periodic", "wall"], "restitution": 0.25},
         "gravity": [0.5, -9.81], "restitution_rule": "geometric", "contact_time": 1e-3, "speed_factor": 0.9,
+        "precision": "float", "allow_overlap": true,
         "balls": [{"position": [1, 2], "velocity": [3, 4], "acceleration": [5, 6], "radius": 0.75, "mass": 8,
                    "restitution": 0.5},
                   {"position": [9, 10], "static": true}],
@@ -85,6 +88,8 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_EQ(scene.restitution_rule, RestitutionRule::kGeometric);
     EXPECT_EQ(scene.contact_time, 1e-3);
     EXPECT_EQ(scene.speed_factor, 0.9);
+    EXPECT_EQ(scene.precision, Precision::kFloat);
+    EXPECT_TRUE(scene.allows_overlap);
     EXPECT_EQ(scene.field_interval, 0.125);
     EXPECT_EQ(scene.until, 1.5);
 
@@ -196,6 +201,7 @@ Scene random_scene(Generator& generator) {
     scene.restitution_rule = static_cast<RestitutionRule>(below(generator, 5));
     if (coin()) scene.contact_time = std::abs(any_allowed(generator));
     scene.speed_factor = 1 - unit(generator);
+    scene.allows_overlap = coin();
     scene.balls.resize(1 + list_length());
     for (Ball& ball : scene.balls) {
         ball = {any_vector(generator),
@@ -288,6 +294,8 @@ void expect_same_surroundings(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.restitution_rule, b.restitution_rule);
     EXPECT_TRUE(same_bits(a.contact_time, b.contact_time));
     EXPECT_TRUE(same_bits(a.speed_factor, b.speed_factor));
+    EXPECT_EQ(a.precision, b.precision);
+    EXPECT_EQ(a.allows_overlap, b.allows_overlap);
     EXPECT_TRUE(same_bits(a.field_interval, b.field_interval));
     EXPECT_TRUE(same_bits(a.until, b.until));
     ASSERT_EQ(a.walls.size(), b.walls.size());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "random_values.hpp"
@@ -107,6 +108,16 @@ TEST(Xyz, HasTheFormThatOthersRead) {
               "Properties=id:I:1:species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1 Time=0.5\n"
               "0 X 1 2.5 0 -1 0 0 0.5 1\n"
               "1 X 3 4 0 0 0 0 0.5 1\n");
+    // The nearest float, in as many digits as tell it from the next one.
+    balls[0].position.x() = 0.1;
+    text.clear();
+    append_xyz(text, 0.5, balls, std::nullopt, Precision::kFloat);
+    EXPECT_THAT(text, testing::HasSubstr("\n0 X 0.1 2.5 0 -1 0 0 0.5 1\n"));
+    balls[0].position.x() = 1.0 / 3;
+    text.clear();
+    append_xyz(text, 0.5, balls, std::nullopt, Precision::kFloat);
+    EXPECT_THAT(text, testing::HasSubstr("\n0 X 0.33333334 2.5 0 "));
+    balls[0].position.x() = 1;
     balls[1].restitution = 0.5;
     balls[1].is_static = true;
     text.clear();

@@ -26,6 +26,7 @@ struct BruteForceRules {
     double rest_time = 0;
     double speed_factor = 1;
     Clock clock;
+    bool in_float = false;
 };
 
 struct BruteForceEvent {
@@ -96,6 +97,16 @@ class BruteForce {
     [[nodiscard]] Vec2 shift(int nx, int ny) const { return {nx * length(0), ny * length(1)}; }
 
     void wrap(Body& b) const {
+        wrap_once(b);
+        if (!rules_.in_float) return;
+        b.ball.position = rounded_to_float(b.ball.position);
+        wrap_once(b);  // rounding may have reached the upper side
+        b.ball.position = rounded_to_float(b.ball.position);
+    }
+    [[nodiscard]] Vec2 held(const Vec2& velocity) const {
+        return rules_.in_float ? rounded_to_float(velocity) : velocity;
+    }
+    void wrap_once(Body& b) const {
         for (int axis = 0; axis < 2; ++axis) {
             if (!periodic(axis)) continue;
             const double low = rules_.domain.box.min[axis];
@@ -109,7 +120,7 @@ class BruteForce {
         const double since = rules_.clock.difference(t, b.anchor);
         const Motion<double> m{b.ball.position, b.ball.velocity, b.acceleration};
         b.ball.position = position_at(m, since);
-        b.ball.velocity = velocity_at(m, since);
+        b.ball.velocity = held(velocity_at(m, since));
         b.anchor = t;
         wrap(b);
     }
@@ -219,7 +230,8 @@ class BruteForce {
             tc(pair_restitution(rules_.rule, a.ball.restitution, b.ball.restitution), event.time, a, b);
         const PairVelocities<double> after =
             collide<double>(a.ball.velocity, b.ball.velocity, r, a.ball.mass, b.ball.mass, e,
-                            separation(pressure, std::sqrt(length_squared(r))));
+                            separation(pressure, std::sqrt(length_squared(r))), nullptr,
+                            [this](const Vec2& u) { return held(u); });
         a.ball.velocity = after.a;
         b.ball.velocity = after.b;
         a.last_collision = b.last_collision = event.time;
@@ -280,8 +292,8 @@ class BruteForce {
                 : -(dot(normal, a.acceleration) + (round ? length_squared(a.ball.velocity) : 0.0));
         const double factor = lasting == e ? rules_.speed_factor : 1;
         a.ball.velocity = bounce<double>(a.ball.velocity, normal, lasting,
-                                         separation(pressure, std::sqrt(length_squared(normal))) / factor);
-        if (factor != 1) a.ball.velocity *= factor;
+                                         separation(pressure, std::sqrt(length_squared(normal))) / factor,
+                                         [&](const Vec2& u) { return held(Vec2(u * factor)); });
         a.last_collision = event.time;
         predict_row(mover);
     }

@@ -16,7 +16,8 @@ constexpr std::size_t kFewerEvents = 1'000;
 
 BruteForceRules rules_of(const Scene& scene) {
     const Physics p = derive_physics(scene, scene.balls);
-    return {p.domain, p.gravity, p.restitution_rule, p.contact_time, p.rest_time, p.speed_factor, p.clock};
+    return {p.domain,       p.gravity, p.restitution_rule, p.contact_time, p.rest_time,
+            p.speed_factor, p.clock,   p.in_float};
 }
 
 /// Runs both until the reference has had its events, or nothing is left to happen.

@@ -176,6 +176,20 @@ inline std::vector<NamedScene> feature_scenes() {
     for (std::size_t i = 1; i < swept.balls.size(); i += 2)
         if (!swept.balls[i].is_static) swept.balls[i].acceleration = {0.05, -0.05};
     add("static balls and walls with own accelerations", swept);
+
+    const auto in_float = [](Scene s) {
+        s.precision = Precision::kFloat;
+        for (Ball& b : s.balls) {  // as World does: the scales follow from what it simulates
+            b.position = rounded_to_float(b.position);
+            b.velocity = rounded_to_float(b.velocity);
+        }
+        return s;
+    };
+    add("in float elastic periodic dense", in_float(gas(3, {.packing = 0.68})));
+    add("in float slanted gravity inelastic mixed walled", in_float(slanted_gravity));
+    add("in float static balls and walls under gravity with losses", in_float(pins));
+    add("in float static balls and walls with own accelerations", in_float(swept));
+    add("in float large balls walled under gravity", in_float(large_walled));
     return all;
 }
 

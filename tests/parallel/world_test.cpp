@@ -135,7 +135,9 @@ TEST(World, ValidatesAsSoundThroughARun) {
         for (int k = 1; k <= 5; ++k) {
             world.advance_to(k);
             EXPECT_THAT(world.validate(), testing::IsEmpty()) << named.name;
-            EXPECT_LT(world.max_overlap(), 1e-12) << named.name;
+            // Float rounds either centre at coordinates of up to 64, and the smallest radii's sum is 0.1.
+            const double rounding = named.scene.precision == Precision::kFloat ? 0x1p-23 * 64 / 0.1 : 1e-12;
+            EXPECT_LT(world.max_overlap(), rounding) << named.name;
         }
     }
 }

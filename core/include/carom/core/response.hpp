@@ -69,6 +69,14 @@ template <class T>
             fused_multiply_add<T>(factor.high, line.y(), T(factor.low * line.y()))};
 }
 
+/// Velocities are kept as computed.
+struct AsComputed {
+    template <class T>
+    [[nodiscard]] const T& operator()(const T& velocity) const {
+        return velocity;
+    }
+};
+
 /// Applies a multiple `factor` > 0 of the line by `apply`, which returns the rate of separation afterwards,
 /// and raises it by doubling steps from one ulp until that rate is >= 0, and > 0 where `must_part`. Rounding
 /// can leave it short by the velocities' ulp, some 2^106 times the ulp of a nearly tangential factor: hence
@@ -96,12 +104,13 @@ inline Twofold<T> apply_until_separating(Twofold<T> factor, bool must_part, Appl
 /// separation_speed, or the offset is zero. One impulse serves both bodies with opposite signs, for mass
 /// ratios of 1e-15 to 1e15 too. Afterwards dot(offset, va - vb), which the time of impact looks at, is >= 0
 /// in the scalar's own arithmetic, and > 0 where the speed of separation asked for is. `impulse`, where
-/// given, gets the length of the impulse (mass * speed). Pure.
-template <class T>
+/// given, gets the length of the impulse (mass * speed). `keep` gives each velocity as the caller will hold
+/// it, rounded perhaps; what is promised about afterwards holds for that. Pure.
+template <class T, class Keep = detail::AsComputed>
 [[nodiscard]] inline PairVelocities<T> collide(const Vector2<T>& va, const Vector2<T>& vb,
                                                const Vector2<T>& offset, const T& mass_a, const T& mass_b,
                                                const T& restitution, const T& separation_speed = T(0),
-                                               T* impulse = nullptr) {
+                                               T* impulse = nullptr, Keep&& keep = {}) {
     using std::sqrt;
     PairVelocities<T> after{va, vb};
     if (impulse != nullptr) *impulse = T(0);
@@ -119,8 +128,8 @@ template <class T>
     const Twofold<T> start = twofold_product<T>(reduced_mass, change);
     const Twofold<T> factor = detail::apply_until_separating<T>(start, aimed > 0, [&](const Twofold<T>& f) {
         const Vector2<T> shared = detail::multiple<T>(f, line);
-        after.a = va + shared / mass_a;
-        after.b = vb - shared / mass_b;
+        after.a = keep(Vector2<T>(va + shared / mass_a));
+        after.b = keep(Vector2<T>(vb - shared / mass_b));
         return dot<T>(offset, Vector2<T>(after.a - after.b));
     });
     if (impulse != nullptr) *impulse = factor.high * length;
@@ -131,24 +140,24 @@ template <class T>
 /// from it to the ball, of any length > 0; see contact_normal() for walls.
 ///
 /// The rest as collide(). Along an axis the normal component is multiplied by -restitution and the other is
-/// untouched, to the bit.
-template <class T>
+/// untouched, to the bit, but for what `keep` does to them.
+template <class T, class Keep = detail::AsComputed>
 [[nodiscard]] inline Vector2<T> bounce(const Vector2<T>& v, const Vector2<T>& normal, const T& restitution,
-                                       const T& separation_speed = T(0)) {
+                                       const T& separation_speed = T(0), Keep&& keep = {}) {
     using std::sqrt;
     const Vector2<T> line = detail::exact_if_axial<T>(normal);
     const T rate = dot<T>(line, v);
     const Twofold<T> line_squared = length_squared_twofold<T>(line);
-    if (!(line_squared.high > 0)) return v;
+    if (!(line_squared.high > 0)) return keep(v);
     const T parting = separation_speed * sqrt(line_squared.high);
-    if (rate > 0 && rate >= parting) return v;
+    if (rate > 0 && rate >= parting) return keep(v);
     const T aimed = std::max<T>(T(-restitution * rate), parting);
-    if (line.x() == 0) return {v.x(), T(aimed * line.y())};
-    if (line.y() == 0) return {T(aimed * line.x()), v.y()};
+    if (line.x() == 0) return keep(Vector2<T>(v.x(), T(aimed * line.y())));
+    if (line.y() == 0) return keep(Vector2<T>(T(aimed * line.x()), v.y()));
     Vector2<T> after = v;
     const Twofold<T> start = twofold_quotient<T>({T(aimed - rate), T(0)}, line_squared);
     detail::apply_until_separating<T>(start, aimed > 0, [&](const Twofold<T>& f) {
-        after = v + detail::multiple<T>(f, line);
+        after = keep(Vector2<T>(v + detail::multiple<T>(f, line)));
         return dot<T>(normal, after);
     });
     return after;

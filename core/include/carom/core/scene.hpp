@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <carom/core/precision.hpp>
 #include <carom/core/vector.hpp>
 
 namespace carom {
@@ -85,6 +86,8 @@ struct Scene {
     std::optional<double>
         contact_time;         ///< of the TC model; where absent it is derived, see default_contact_time
     double speed_factor = 1;  ///< whole velocity after a hit on a wall or a static ball, times this
+    Precision precision = Precision::kDouble;  ///< in which balls' states are held
+    bool allows_overlap = false;               ///< whether balls may start inside each other and inside walls
     std::vector<Ball> balls;
     std::vector<Fill> fills;
     std::vector<Wall> walls;

@@ -42,9 +42,10 @@ void for_each_xyz_frame(const std::filesystem::path& path, const std::function<b
 /// Appends a frame to `text`: id, species (X), position, velocity, radius and mass, and those of
 /// acceleration, restitution and static that differ from Ball's defaults somewhere. Positions have a third
 /// column of zeros. The domain, where given, becomes Lattice, Origin and pbc. Digits are the fewest that read
-/// back as the same bits. About a microsecond a ball.
+/// back as the same bits, of doubles or, for positions and velocities, of the nearest floats. About a
+/// microsecond a ball.
 void append_xyz(std::string& text, double time, std::span<const Ball> balls,
-                const std::optional<Domain>& domain);
+                const std::optional<Domain>& domain, Precision precision = Precision::kDouble);
 
 /// A file of one frame, written whole or not at all. Throws FileError.
 void write_xyz(const std::filesystem::path& path, double time, std::span<const Ball> balls,
@@ -61,7 +62,8 @@ class XyzTrajectory {
     XyzTrajectory(const XyzTrajectory&) = delete;
     XyzTrajectory& operator=(const XyzTrajectory&) = delete;
 
-    void write(double time, std::span<const Ball> balls, const std::optional<Domain>& domain);
+    void write(double time, std::span<const Ball> balls, const std::optional<Domain>& domain,
+               Precision precision = Precision::kDouble);
 
  private:
     std::filesystem::path path_;

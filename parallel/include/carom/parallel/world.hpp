@@ -81,6 +81,9 @@ class World {
     /// State at time(); reading anchors nothing. Periodic positions lie inside the box.
     [[nodiscard]] PlaneVectors positions() const;
     [[nodiscard]] PlaneVectors velocities() const;
+    /// The same rounded to float, for what draws or needs no more: 8 bytes a ball.
+    [[nodiscard]] std::vector<Vector2<float>> positions_in_float() const;
+    [[nodiscard]] std::vector<Vector2<float>> velocities_in_float() const;
     /// Every ball at time(), in the order of the ids: positions, velocities and what does not change.
     [[nodiscard]] std::vector<Ball> balls() const;
 
