@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "accuracy/precision_cost.hpp"
 #include "accuracy/response_accuracy.hpp"
+#include "accuracy/rest.hpp"
 #include "accuracy/speed.hpp"
 #include "accuracy/wall_accuracy.hpp"
 
@@ -22,7 +24,7 @@ constexpr const char* kUsage =
     "  --queries N      queries a kind (100000); 10000000 takes about half an hour for a table\n"
     "  --collisions N   collisions of the longest drift (10000000)\n"
     "  --check-every N  one query in N goes to the slow oracles as well (1000)\n"
-    "  --only TABLE     straight, curved, walls, seam, response, drift or speed\n";
+    "  --only TABLE     straight, curved, walls, seam, response, drift, rest, precision or speed\n";
 
 struct Options {
     Effort effort{100000, 1000};
@@ -107,6 +109,18 @@ void print_drift(std::int64_t most) {
     }
 }
 
+void print_precision() {
+    print("| figure | double | double, read in float | float |\n| --- | ---: | ---: | ---: |\n");
+    for (const PrecisionRow& row : measure_precision())
+        print(fmt::format("| {} | {} | {} | {} |\n", row.figure, row.in_double, row.read_in_float,
+                          row.in_float));
+}
+
+void print_rest() {
+    print(rest_header());
+    for (const RestCase& rest : rest_cases(true)) print(rest_line(rest, measure(rest)));
+}
+
 void print_speed() {
     print(
         "| queries | hits | Carom, ns | Eigen, ns | Eigen / Carom | Eigen's answers that are wrong |\n"
@@ -124,6 +138,8 @@ void print_tables(const Options& options) {
     if (begin(options, "seam")) print_seam(options.effort);
     if (begin(options, "response")) print_response(options.effort);
     if (begin(options, "drift")) print_drift(options.collisions);
+    if (begin(options, "rest")) print_rest();
+    if (begin(options, "precision")) print_precision();
     if (begin(options, "speed")) print_speed();
 }
 
