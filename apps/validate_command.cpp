@@ -60,6 +60,14 @@ std::string packing_text(const Scene& scene, const std::vector<Ball>& balls) {
     return fmt::format("{:.6g}", area / (extent.x() * extent.y()));
 }
 
+/// What rests hops for a contact time: docs/accuracy.md has the figures.
+std::string contact_text(double contact_time) {
+    constexpr double kRestingCollisions = 5;
+    if (contact_time == 0) return "0";
+    return fmt::format("{:.6g} (at rest about {:.3g} collisions a ball and second)", contact_time,
+                       kRestingCollisions / contact_time);
+}
+
 int validate(const std::string& path) {
     Scene scene = read_scene(path);
     scene.balls = place_balls(scene);
@@ -84,7 +92,7 @@ int validate(const std::string& path) {
         row("domain", domain_text(scene)) + row("packing", packing_text(scene, scene.balls)) +
         row("gravity", fmt::format("({:.6g}, {:.6g})", scene.gravity.x(), scene.gravity.y())) +
         row("precision", scene.precision == Precision::kFloat ? "float" : "double") +
-        row("contact time", fmt::format("{:.6g}", world.contact_time())) +
+        row("contact time", contact_text(world.contact_time())) +
         row("until", fmt::format("{:.6g}", scene.until)));
     return kGood;
 }
