@@ -20,16 +20,18 @@ namespace carom::accuracy {
 namespace {
 
 constexpr const char* kUsage =
-    "carom_accuracy [--queries N] [--collisions N] [--check-every N] [--only TABLE]\n"
+    "carom_accuracy [--queries N] [--collisions N] [--check-every N] [--only TABLE] [--kind TEXT]\n"
     "  --queries N      queries a kind (100000); 10000000 takes about half an hour for a table\n"
     "  --collisions N   collisions of the longest drift (10000000)\n"
     "  --check-every N  one query in N goes to the slow oracles as well (1000)\n"
-    "  --only TABLE     straight, curved, walls, seam, response, drift, rest, precision or speed\n";
+    "  --only TABLE     straight, curved, walls, seam, response, drift, rest, precision or speed\n"
+    "  --kind TEXT      of straight, curved and walls, only the kinds whose names have this in them\n";
 
 struct Options {
     Effort effort{100000, 1000};
     std::int64_t collisions = 10000000;
     std::string only;
+    std::string kind;
 };
 
 void print(const std::string& text) {
@@ -45,11 +47,13 @@ bool begin(const Options& options, const std::string& table) {
 }
 
 template <class Kind>
-void print_times(const std::vector<Kind>& kinds, std::uint64_t seed, const Effort& effort) {
+void print_times(const std::vector<Kind>& kinds, std::uint64_t seed, const Options& options) {
     print(tally_header());
     std::vector<Tally> tallies;
     for (const Kind& kind : kinds) {
-        tallies.push_back(measure(kind, ++seed, effort));
+        ++seed;
+        if (kind.name.find(options.kind) == std::string::npos) continue;
+        tallies.push_back(measure(kind, seed, options.effort));
         print(tally_line(tallies.back()));
         tallies.back().in_units = {};
         tallies.back().relative = {};
@@ -132,9 +136,9 @@ void print_speed() {
 }
 
 void print_tables(const Options& options) {
-    if (begin(options, "straight")) print_times(straight_kinds(), 1000, options.effort);
-    if (begin(options, "curved")) print_times(curved_kinds(), 2000, options.effort);
-    if (begin(options, "walls")) print_times(wall_kinds(), 3000, options.effort);
+    if (begin(options, "straight")) print_times(straight_kinds(), 1000, options);
+    if (begin(options, "curved")) print_times(curved_kinds(), 2000, options);
+    if (begin(options, "walls")) print_times(wall_kinds(), 3000, options);
     if (begin(options, "seam")) print_seam(options.effort);
     if (begin(options, "response")) print_response(options.effort);
     if (begin(options, "drift")) print_drift(options.collisions);
@@ -148,8 +152,8 @@ bool read(int argc, char** argv, Options& options) {
     for (int i = 1; i + 1 < argc; i += 2) {
         const std::string name = argv[i];
         const std::int64_t number = std::atoll(argv[i + 1]);
-        if (name == "--only") {
-            options.only = argv[i + 1];
+        if (name == "--only" || name == "--kind") {
+            (name == "--only" ? options.only : options.kind) = argv[i + 1];
             continue;
         }
         if (number <= 0) return false;

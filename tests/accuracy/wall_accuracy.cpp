@@ -129,6 +129,11 @@ bool starts_outside(const WallQuery& q) {
 /// elsewhere: with -g t + k t^2 / 2 the gap at the hit, it falls below -c, where it ever does, within 2 c /
 /// g.
 bool in_band(const WallQuery& q, const Contact& contact, Quad time) {
+    // With k at most 2 |v|^2 / r + |a| until then, doubled for what v changes: deep enough to spare the
+    // oracle.
+    const Vec2 v = velocity_at<double>(q.centre, static_cast<double>(time));
+    const double curve = 2 * (2 * v.squaredNorm() / q.radius + q.centre.acceleration.norm());
+    if (contact.rate * contact.rate > 64 * curve * contact.gap_change) return false;
     const Quad change = contact.gap_change;
     if (wall_truth(q, change).verdict == Verdict::kMiss) return false;
     const WallTruth smaller = wall_truth(q, -change);
