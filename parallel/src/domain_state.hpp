@@ -73,6 +73,15 @@ struct DomainState {
     std::vector<OwnVisit> visits;
     std::vector<std::uint8_t> touched;
     bool failed = false;
+
+    /// Forgets what the last window came to.
+    void clear_outcome() {
+        const auto empty = [](auto&... tables) { (tables.clear(), ...); };
+        empty(results, result_extras, overwritten, last_overwritten, notes, collisions, copies, copy_visits,
+              visits);
+        told = 0;
+        events = copied_collisions = 0;
+    }
 };
 
 }  // namespace carom

@@ -175,14 +175,12 @@ template <Acceleration A>
 template <class F>
 void EventLoopOf<A>::for_each_place(std::uint32_t i, CellCoordinates first, CellCoordinates last,
                                     F&& f) const {
-    const std::int32_t low = place_of(i, first);
-    const std::int32_t high = place_of(i, last);
+    const std::int32_t low = place_of_block(i, first, last);
     const std::int32_t row = region_.x.size();
-    const bool is_plain = low >= 0 && high - low == (last.y - first.y) * row + (last.x - first.x);
     for (std::int32_t y = first.y; y <= last.y; ++y) {
         for (std::int32_t x = first.x; x <= last.x; ++x) {
             const std::int32_t place =
-                is_plain ? low + (y - first.y) * row + (x - first.x) : place_of(i, {x, y});
+                low >= 0 ? low + (y - first.y) * row + (x - first.x) : place_of(i, {x, y});
             if (place >= 0) f(place, CellCoordinates{x, y});
         }
     }
@@ -195,10 +193,9 @@ bool EventLoopOf<A>::gather_block(std::uint32_t i, CellCoordinates first, CellCo
                                   Candidates& found) const {
     const std::int32_t width = last.x - first.x + 1;
     const std::int32_t height = last.y - first.y + 1;
-    const std::int32_t low = place_of(i, first);
+    const std::int32_t low = place_of_block(i, first, last);
     const std::int32_t row = region_.x.size();
-    if (width > 3 || height > 3 || low < 0 || place_of(i, last) - low != (height - 1) * row + (width - 1))
-        return false;
+    if (width > 3 || height > 3 || low < 0) return false;
     std::size_t count = 0;
     bool overflows = false;
     std::uint64_t from = 0;

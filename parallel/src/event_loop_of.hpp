@@ -118,6 +118,13 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] double bound_times(std::uint32_t i, const Present& a, Candidates& found) const;
     void consider_all(std::uint32_t i, const Present& place, Candidates& found, NextEvent& best) const;
     bool gather_block(std::uint32_t i, CellCoordinates first, CellCoordinates last, Candidates& found) const;
+    /// The place of a block's first cell where its rows lie in the region as they do in the plane; else -1.
+    [[nodiscard]] std::int32_t place_of_block(std::uint32_t i, CellCoordinates first,
+                                              CellCoordinates last) const {
+        const std::int32_t low = place_of(i, first);
+        const std::int32_t extent = (last.y - first.y) * region_.x.size() + (last.x - first.x);
+        return low >= 0 && place_of(i, last) - low == extent ? low : -1;
+    }
     template <class F>
     void for_each_place(std::uint32_t i, CellCoordinates first, CellCoordinates last, F&& f) const;
     void scan_obstacles(std::uint32_t i, NextEvent& best) const;

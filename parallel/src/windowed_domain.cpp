@@ -80,12 +80,7 @@ void WindowedEngine::run(DomainState& d, const Time& window_end, bool inclusive)
 
 void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& window_end) {
     EventLoop& loop = *w.loop;
-    d.result_extras.clear();
-    d.last_overwritten.clear();
-    d.copies.clear();
-    d.copy_visits.clear();
-    d.visits.clear();
-    d.told = 0;
+    d.clear_outcome();
     std::swap(d.overwritten, loop.overwritten);
     std::swap(d.notes, loop.notes);
     std::swap(d.collisions, loop.collisions);

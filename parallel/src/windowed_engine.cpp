@@ -71,16 +71,7 @@ void WindowedEngine::run_together(const Time& window_end, bool inclusive) {
     w.loop->start();
     w.loop->advance_to(window_end, inclusive);
     EventLoop& loop = *w.loop;
-    for (DomainState& d : domains_) {
-        d.results.clear();
-        d.result_extras.clear();
-        d.last_overwritten.clear();
-        d.overwritten.clear();
-        d.notes.clear();
-        d.collisions.clear();
-        d.told = 0;
-        d.events = d.copied_collisions = 0;
-    }
+    for (DomainState& d : domains_) d.clear_outcome();
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
         DomainState& d = domains_[w.origins[i].domain];
         d.results.push_back(loop.records()[i]);
@@ -114,14 +105,11 @@ void WindowedEngine::predict_anew(bool renews_field) {
         load(w, {bodies_.grid, d.x, d.y, kSight}, kSight, kNever, false);
         if (renews_field) w.loop->renew_field(window_start_);
         w.loop->predict_all(nullptr);
+        d.clear_outcome();
         d.events = w.loop->events;
-        d.result_extras.clear();
         d.results.assign(w.loop->records().begin(), w.loop->records().begin() + w.own);
         for (std::uint32_t i = 0; bodies_.needs_extras() && i < w.own; ++i)
             d.result_extras.push_back(w.loop->extra(i));
-        d.notes.clear();
-        d.told = 0;
-        d.copied_collisions = 0;
     });
     in_window_ = true;
     window_end_ = window_start_;

@@ -85,6 +85,14 @@ class WindowedEngine final : public Engine {
         const CollisionNote* note;
         const Collision* collision;
     };
+    /// A domain's balls as they were last advanced.
+    struct Held {
+        const std::vector<BallRecord>& records;
+        const std::vector<BallExtra>& extras;
+    };
+    [[nodiscard]] Held held(const DomainState& d) const {
+        return in_window_ ? Held{d.results, d.result_extras} : Held{d.records, d.extras};
+    }
     void order_simultaneous(std::span<Told> notes) const;
     void tune(double length, bool agreed);
 

@@ -83,8 +83,7 @@ void WindowedEngine::renew_field(const Time& t) {
 void WindowedEngine::read(const Time& t, std::span<BallState> states) const {
     for_each_domain([&](std::size_t k) {
         const DomainState& d = domains_[k];
-        const std::vector<BallRecord>& records = in_window_ ? d.results : d.records;
-        const std::vector<BallExtra>& extras = in_window_ ? d.result_extras : d.extras;
+        const auto& [records, extras] = held(d);
         for (std::size_t i = 0; i < records.size(); ++i) {
             Anchor anchor = records[i].anchor;
             Periods periods = records[i].periods;
@@ -107,8 +106,7 @@ void WindowedEngine::audit(std::vector<Violation>& found) const {
     loop->clear({bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0},
                 in_window_ ? window_end_ : window_start_);
     for (const DomainState& d : domains_) {
-        const std::vector<BallRecord>& records = in_window_ ? d.results : d.records;
-        const std::vector<BallExtra>& extras = in_window_ ? d.result_extras : d.extras;
+        const auto& [records, extras] = held(d);
         for (std::size_t i = 0; i < records.size(); ++i)
             loop->add(records[i], extras.empty() ? nullptr : &extras[i], true);
     }
