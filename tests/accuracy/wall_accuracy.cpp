@@ -125,20 +125,21 @@ bool starts_outside(const WallQuery& q) {
     return (q.centre.position - nearest).norm() > q.radius + slack;
 }
 
-/// With the radius half an ulp of everything larger it hits, with the radius so much smaller it does not, or
-/// elsewhere: with -g t + k t^2 / 2 the gap at the hit, it falls below -c, where it ever does, within 2 c /
-/// g.
-bool in_band(const WallQuery& q, const Contact& contact, Quad time) {
+/// Whether half an ulp of everything decides on the hit at `time`: one that is there is not with the radius
+/// so much smaller, or one that is not is with the radius so much larger. With -g t + k t^2 / 2 the gap from
+/// the hit on, it falls below -c, where it ever does, within 2 c / g; a later hit is another one.
+bool in_band(const WallQuery& q, const Contact& contact, Quad time, bool is_there) {
     // With k at most 2 |v|^2 / r + |a| until then, doubled for what v changes: deep enough to spare the
     // oracle.
     const Vec2 v = velocity_at<double>(q.centre, static_cast<double>(time));
     const double curve = 2 * (2 * v.squaredNorm() / q.radius + q.centre.acceleration.norm());
-    if (contact.rate * contact.rate > 64 * curve * contact.gap_change) return false;
+    if (is_there && contact.rate * contact.rate > 64 * curve * contact.gap_change) return false;
     const Quad change = contact.gap_change;
-    if (wall_truth(q, change).verdict == Verdict::kMiss) return false;
-    const WallTruth smaller = wall_truth(q, -change);
-    return smaller.verdict != Verdict::kHit ||
-           static_cast<Wide>(smaller.time - time) > 3 * contact.gap_change / contact.rate;
+    const Quad slack = 3 * contact.gap_change / contact.rate;
+    const WallTruth other = wall_truth(q, is_there ? -change : change);
+    if (other.verdict == Verdict::kUndecided) return true;
+    const bool hits_there = other.verdict == Verdict::kHit && other.time <= time + slack;
+    return hits_there != is_there;
 }
 
 bool agrees_in_many_digits(const WallQuery& q, const WallTruth& truth, Wide slack) {
@@ -185,16 +186,19 @@ Tally measure(const WallKind& kind, std::uint64_t seed, const Effort& effort) {
         const bool hit = truth.verdict == Verdict::kHit;
         tally.hits += hit ? 1 : 0;
         if (!hit && !(found < kNever)) continue;
-        const Quad time = hit ? truth.time : Quad(found);
-        const Contact contact = contact_at(q, time);
-        const bool band = in_band(q, contact, time);
-        tally.band += band ? 1 : 0;
+        Quad time = hit ? truth.time : Quad(found);
+        Contact contact = contact_at(q, time);
         const Wide unit = contact.gap_change / contact.rate + half_ulp(static_cast<double>(time));
         const Wide error = hit && found < kNever ? static_cast<Wide>(magnitude(Quad(found) - time)) : Wide(0);
-        const bool missed = hit && !(error <= kOtherRoot * unit && found < kNever);
-        (band ? tally.missed_in_band : tally.missed) += missed ? 1 : 0;
-        (band ? tally.invented_in_band : tally.invented) += !hit ? 1 : 0;
-        if (!hit || missed || band) continue;
+        const bool is_right = hit && found < kNever && error <= kOtherRoot * unit;
+        // Of two times that have nothing to do with each other the earlier one is to be explained.
+        const bool invented = !is_right && (!hit || Quad(found) < time);
+        if (invented && hit) contact = contact_at(q, time = found);
+        const bool band = in_band(q, contact, time, !invented);
+        tally.band += band ? 1 : 0;
+        (band ? tally.missed_in_band : tally.missed) += !is_right && !invented ? 1 : 0;
+        (band ? tally.invented_in_band : tally.invented) += invented ? 1 : 0;
+        if (!is_right || band) continue;
         if (tally.queries % effort.check_every == 0) {
             ++tally.checked;
             const Wide slack = Wide(1e-3) * unit + 0x1p-62L * static_cast<Wide>(time);
