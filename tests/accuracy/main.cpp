@@ -12,6 +12,7 @@
 
 #include "accuracy/response_accuracy.hpp"
 #include "accuracy/speed.hpp"
+#include "accuracy/systems.hpp"
 #include "accuracy/wall_accuracy.hpp"
 
 namespace carom::accuracy {
@@ -22,7 +23,7 @@ constexpr const char* kUsage =
     "  --queries N      queries a kind (100000); 10000000 takes hours for the quartic\n"
     "  --collisions N   collisions of the longest drift (10000000)\n"
     "  --check-every N  one query in N goes to the slow oracles as well (1000)\n"
-    "  --only TABLE     straight, curved, walls, seam, response, drift or speed\n";
+    "  --only TABLE     straight, curved, walls, seam, response, drift, systems or speed\n";
 
 struct Options {
     Effort effort{100000, 1000};
@@ -107,6 +108,13 @@ void print_drift(std::int64_t most) {
     }
 }
 
+void print_systems() {
+    print(systems_header());
+    for (const auto& systems : {line_systems(), mass_systems(), bounce_systems(), billiard_systems(),
+                                reversal_systems(), long_systems()})
+        for (const System& system : systems) print(system_line(system, system.measure()));
+}
+
 void print_speed() {
     print(
         "| queries | hits | Carom, ns | Eigen, ns | Eigen / Carom | Eigen's answers that are wrong |\n"
@@ -124,6 +132,7 @@ void print_tables(const Options& options) {
     if (begin(options, "seam")) print_seam(options.effort);
     if (begin(options, "response")) print_response(options.effort);
     if (begin(options, "drift")) print_drift(options.collisions);
+    if (begin(options, "systems")) print_systems();
     if (begin(options, "speed")) print_speed();
 }
 
