@@ -18,15 +18,12 @@ double growth(double packing) {
     return packing < 0.1 ? 4.3 : packing < 0.5 ? 1.2 : 0.5;
 }
 
-/// An error of the way back has k collisions a ball to grow in. At the mean it grows as exp(growth k); but
-/// the collisions of one ball scatter as Poisson's law has it, and the chain of those that meet most counts:
-/// three standard deviations more.
-double reversal_bound(const ReversalCase& c, double side) {
+}  // namespace
+
+double error_after(const ReversalCase& c, double side) {
     const double most = c.collisions + 3 * std::sqrt(c.collisions);
     return 8 * kRounding * side * std::exp(growth(c.packing) * most);
 }
-
-}  // namespace
 
 std::vector<ReversalCase> reversal_cases() {
     std::vector<ReversalCase> all;
@@ -34,7 +31,7 @@ std::vector<ReversalCase> reversal_cases() {
         for (const double collisions : {1.0, 2.0, 4.0})
             for (const bool walled : {false, true})
                 // Beyond this a double holds nothing of where they came from.
-                if (reversal_bound({packing, collisions, walled}, 40) < 1e-2)
+                if (error_after({packing, collisions, walled}, 40) < 1e-2)
                     all.push_back({packing, collisions, walled});
     return all;
 }
@@ -63,7 +60,7 @@ Deviation reverse(const ReversalCase& c, double fault) {
         for (int axis = 0; axis < 2; ++axis) {
             double error = x[i][axis] - start[i].position[axis];
             if (!c.walled) error = std::remainder(error, side);
-            d.include(std::abs(error), reversal_bound(c, side));
+            d.include(std::abs(error), error_after(c, side));
         }
     return d;
 }

@@ -2,8 +2,10 @@
 // docs/accuracy.md, each within its bound, and what is exact.
 #include <gtest/gtest.h>
 
-#include <cctype>
-#include <ostream>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
 
 #include <carom/parallel/world.hpp>
 
@@ -12,14 +14,9 @@
 #include "accuracy/reversal.hpp"
 #include "accuracy/systems.hpp"
 #include "core/table.hpp"
+#include "system_test.hpp"
 
 namespace carom::accuracy {
-
-// GoogleTest's name for a system where a test fails.
-void PrintTo(const System& system, std::ostream* out) {
-    *out << system.name;
-}
-
 namespace {
 
 std::vector<System> all_systems() {
@@ -30,24 +27,12 @@ std::vector<System> all_systems() {
     return all;
 }
 
-std::string name_of(const testing::TestParamInfo<System>& info) {
-    std::string name;
-    for (const char c : info.param.name + "_" + info.param.figure)
-        name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-    return name;
-}
-
-class ExactSystem : public testing::TestWithParam<System> {};
-
 // The bounds stand beside the functions that measure.
 TEST_P(ExactSystem, StaysWithinItsBound) {
-    const Deviation d = GetParam().measure();
-    EXPECT_EQ(d.collisions, d.expected);
-    EXPECT_GT(d.expected, 0U);
-    EXPECT_LE(d.error, d.bound);
+    expect_within_bound(GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Systems, ExactSystem, testing::ValuesIn(all_systems()), name_of);
+INSTANTIATE_TEST_SUITE_P(Systems, ExactSystem, testing::ValuesIn(all_systems()), name_of_system);
 
 TEST(ExactSystems, GalperinCountsTheDigitsOfPi) {
     for (const test::Row& row : test::read_table("galperin.csv"))
