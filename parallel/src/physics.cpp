@@ -21,9 +21,6 @@ constexpr double kContactFalls = 1e-2;
 // a diameter.
 constexpr double kRestFalls = 1e-4;
 
-// More renewals of the field than that no run survives.
-constexpr double kMostFieldUpdates = 1e9;
-
 struct Scales {
     double diameter = 1;      // mean of the moving balls
     double speed = 0;         // root mean square

@@ -8,6 +8,9 @@
 
 namespace carom {
 
+/// More renewals of the attractors' field than that no run survives.
+inline constexpr double kMostFieldUpdates = 1e9;
+
 struct Physics {
     Domain domain;
     Vec2 gravity = Vec2::Zero();

@@ -143,6 +143,10 @@ class World::State {
         if (end == kNever)
             throw std::invalid_argument("time " + shown(time) +
                                         " is beyond what this scene's clock can tell");
+        if (!bodies.attractors.empty() && time > kMostFieldUpdates * field_interval)
+            throw std::invalid_argument(
+                "time " + shown(time) +
+                " is more than a thousand million of the scene's field_interval away");
         is_read = false;
         Time horizon = kNever;
         if (!bodies.attractors.empty()) {

@@ -14,6 +14,7 @@
 #include "accuracy/response_accuracy.hpp"
 #include "accuracy/rest.hpp"
 #include "accuracy/speed.hpp"
+#include "accuracy/systems.hpp"
 #include "accuracy/wall_accuracy.hpp"
 
 namespace carom::accuracy {
@@ -24,7 +25,7 @@ constexpr const char* kUsage =
     "  --queries N      queries a kind (100000); 10000000 takes about half an hour for a table\n"
     "  --collisions N   collisions of the longest drift (10000000)\n"
     "  --check-every N  one query in N goes to the slow oracles as well (1000)\n"
-    "  --only TABLE     straight, curved, walls, seam, response, drift, rest, precision or speed\n"
+    "  --only TABLE     straight, curved, walls, seam, response, drift, systems, rest, precision or speed\n"
     "  --kind TEXT      of straight, curved and walls, only the kinds whose names have this in them\n";
 
 struct Options {
@@ -125,6 +126,13 @@ void print_rest() {
     for (const RestCase& rest : rest_cases(true)) print(rest_line(rest, measure(rest)));
 }
 
+void print_systems() {
+    print(systems_header());
+    for (const auto& systems : {line_systems(), mass_systems(), bounce_systems(), billiard_systems(),
+                                reversal_systems(), long_systems()})
+        for (const System& system : systems) print(system_line(system, system.measure()));
+}
+
 void print_speed() {
     print(
         "| queries | hits | Carom, ns | Eigen, ns | Eigen / Carom | Eigen's answers that are wrong |\n"
@@ -144,6 +152,7 @@ void print_tables(const Options& options) {
     if (begin(options, "drift")) print_drift(options.collisions);
     if (begin(options, "rest")) print_rest();
     if (begin(options, "precision")) print_precision();
+    if (begin(options, "systems")) print_systems();
     if (begin(options, "speed")) print_speed();
 }
 
