@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "accuracy/physics.hpp"
 #include "accuracy/response_accuracy.hpp"
 #include "accuracy/speed.hpp"
 #include "accuracy/wall_accuracy.hpp"
@@ -18,15 +19,19 @@ namespace carom::accuracy {
 namespace {
 
 constexpr const char* kUsage =
-    "carom_accuracy [--queries N] [--collisions N] [--check-every N] [--only TABLE]\n"
+    "carom_accuracy [--queries N] [--collisions N] [--check-every N] [--length F] [--only TABLE]\n"
     "  --queries N      queries a kind (100000); 10000000 takes hours for the quartic\n"
     "  --collisions N   collisions of the longest drift (10000000)\n"
     "  --check-every N  one query in N goes to the slow oracles as well (1000)\n"
-    "  --only TABLE     straight, curved, walls, seam, response, drift or speed\n";
+    "  --length F       of the runs of physics, a share of the usual ones (1, some 15 minutes)\n"
+    "  --only TABLE     straight, curved, walls, seam, response, drift, speed or physics; or a part of it:\n"
+    "                   physics_state, physics_velocities, physics_walls, physics_gravity, physics_cooling,\n"
+    "                   physics_mixtures\n";
 
 struct Options {
     Effort effort{100000, 1000};
     std::int64_t collisions = 10000000;
+    double length = 1;
     std::string only;
 };
 
@@ -35,9 +40,10 @@ void print(const std::string& text) {
     std::fflush(stdout);
 }
 
-/// True when the table is wanted; names it.
+/// True when the table, or all that it is a part of, is wanted; names it.
 bool begin(const Options& options, const std::string& table) {
-    if (!options.only.empty() && options.only != table) return false;
+    if (!options.only.empty() && options.only != table && !table.starts_with(options.only + "_"))
+        return false;
     print("table " + table + "\n");
     return true;
 }
@@ -117,6 +123,21 @@ void print_speed() {
                           100 * row.eigen_wrong));
 }
 
+void print_physics(const Options& options) {
+    std::string table;
+    bool is_wanted = false;
+    for (const PhysicsSystem& system : physics_systems()) {
+        if (system.table != table) {
+            table = system.table;
+            is_wanted = begin(options, table);
+            if (is_wanted) print(physics_header());
+        }
+        if (!is_wanted) continue;
+        for (const Figure& figure : system.measure(system.long_run * options.length))
+            print(physics_line(figure));
+    }
+}
+
 void print_tables(const Options& options) {
     if (begin(options, "straight")) print_times(straight_kinds(), 1000, options.effort);
     if (begin(options, "curved")) print_times(curved_kinds(), 2000, options.effort);
@@ -125,6 +146,7 @@ void print_tables(const Options& options) {
     if (begin(options, "response")) print_response(options.effort);
     if (begin(options, "drift")) print_drift(options.collisions);
     if (begin(options, "speed")) print_speed();
+    print_physics(options);
 }
 
 /// False where an option is unknown or not a number above 0.
@@ -134,6 +156,11 @@ bool read(int argc, char** argv, Options& options) {
         const std::int64_t number = std::atoll(argv[i + 1]);
         if (name == "--only") {
             options.only = argv[i + 1];
+            continue;
+        }
+        if (name == "--length") {
+            options.length = std::atof(argv[i + 1]);
+            if (!(options.length > 0)) return false;
             continue;
         }
         if (number <= 0) return false;

@@ -1,123 +1,83 @@
-// Figures of statistical mechanics that others have published.
+// Statistical mechanics through the whole engine: the systems of docs/accuracy.md with short runs. A figure
+// must be within three standard errors of its expected value, and within the bound of what that is off by.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <ostream>
+#include <string>
+#include <vector>
 
-#include <carom/parallel/world.hpp>
+#include "accuracy/physics.hpp"
+#include "core/random.hpp"
 
-#include "core/table.hpp"
-#include "scenes.hpp"
+namespace carom::accuracy {
 
-namespace carom::test {
+void PrintTo(const PhysicsSystem& system, std::ostream* out) {
+    *out << system.name;
+}
+
 namespace {
 
-Scene filled(std::size_t count, double packing, std::uint64_t seed) {
-    Scene s;
-    const double side = std::sqrt(double(count) * std::numbers::pi / 4 / packing);
-    s.domain = Domain{{{0, 0}, {side, side}}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
-    Fill fill;
-    fill.count = count;
-    fill.temperature = 1;
-    fill.seed = seed;
-    s.fills = {fill};
-    s.until = 1;
-    return s;
-}
+class GasPhysics : public testing::TestWithParam<PhysicsSystem> {};
 
-/// Advances until every ball has had so many collisions on average since the last call.
-void run_collisions(World& world, double per_ball) {
-    const double start = double(world.counts().ball_collisions);
-    while (2 * (double(world.counts().ball_collisions) - start) < per_ball * double(world.ball_count()))
-        world.step(0.05);
-}
-
-// Z from the virial, against Kolafa and Rottner 2006, corrected for the number of discs.
-TEST(GasPhysics, EquationOfState) {
-    constexpr std::size_t kDiscs = 1024;
-    constexpr int kBlocks = 20;
-    std::vector<std::pair<double, double>> table;
-    for (const Row& row : read_table("hard_disc_equation_of_state.csv"))
-        table.emplace_back(std::stod(row[0]), std::stod(row[1]));
-    for (const auto& [packing, infinite] : table) {
-        World world(filled(kDiscs, packing, 5));
-        run_collisions(world, 50);  // forget the start
-        const double temperature = world.kinetic_energy() / (kDiscs - 1);
-        std::vector<double> blocks;
-        for (int k = 0; k < kBlocks; ++k) {
-            const double virial = world.virial();
-            const double time = world.time();
-            run_collisions(world, 40);
-            blocks.push_back(1 +
-                             (world.virial() - virial) / (2 * kDiscs * temperature * (world.time() - time)));
-        }
-        double mean = 0;
-        for (const double z : blocks) mean += z / kBlocks;
-        double variance = 0;
-        for (const double z : blocks) variance += (z - mean) * (z - mean) / (kBlocks - 1);
-        const double error = std::sqrt(variance / kBlocks);
-        // Finite size: Z_N = Z - (eta / 2N) (2 Z' + eta Z'') / (Z + eta Z'), with the derivatives of
-        // Henderson's 1975 Z = (1 + eta^2 / 8) / (1 - eta)^2, which suffice for a correction of order 1 / N.
-        const double eta = packing;
-        const double q = 1 - eta;
-        const double z1 = 2 * (1 + eta * eta / 8) / (q * q * q) + eta / 4 / (q * q);
-        const double z2 = 6 * (1 + eta * eta / 8) / (q * q * q * q) + eta / (q * q * q) + 0.25 / (q * q);
-        const double expected = infinite - eta / (2.0 * kDiscs) * (2 * z1 + eta * z2) / (infinite + eta * z1);
-        EXPECT_NEAR(mean, expected, 4 * error) << "packing " << packing << ", standard error " << error;
-        EXPECT_LT(error, 0.004 * infinite) << "packing " << packing;
+// By chance one figure in 370 would fail; seeds are fixed, so that none does today and tomorrow.
+TEST_P(GasPhysics, Agrees) {
+    const PhysicsSystem& system = GetParam();
+    const std::vector<Figure> figures = system.measure(system.short_run);
+    for (const Figure& figure : figures) {
+        SCOPED_TRACE(physics_line(figure));
+        EXPECT_TRUE(figure.agrees());
+        EXPECT_TRUE(figure.measured.is_settled) << "longer blocks have larger errors";
+    }
+    if (system.largest_error > 0) {
+        EXPECT_LE(figures.front().measured.error, system.largest_error);
     }
 }
 
-// Two discs in a periodic box: Z = (1 - eta) / (1 - 2 eta) exactly, for the relative motion is one point
-// among one obstacle's images.
-TEST(GasPhysics, TwoDiscsInAPeriodicBox) {
-    constexpr double kPacking = 0.2;
-    const double side = std::sqrt(2 * std::numbers::pi / 4 / kPacking);
-    double mean = 0;
-    double square = 0;
-    constexpr int kRuns = 40;
-    for (int run = 0; run < kRuns; ++run) {
-        std::mt19937_64 random(100 + run);
-        Scene s;
-        s.domain = Domain{{{0, 0}, {side, side}}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
-        s.until = 1;
-        s.balls.resize(2);
-        s.balls[1].position = {side / 2, uniform(random, side / 4, side / 2)};
-        const double angle = uniform(random, 0, 2 * std::numbers::pi);
-        s.balls[0].velocity = {std::cos(angle), std::sin(angle)};
-        s.balls[1].velocity = -s.balls[0].velocity;
-        World world(s);
-        world.advance_to(4000);
-        const double z = world.compressibility_factor().value();
-        mean += z / kRuns;
-        square += z * z / kRuns;
+INSTANTIATE_TEST_SUITE_P(Systems, GasPhysics, testing::ValuesIn(physics_systems()),
+                         [](const auto& param) { return param.param.name; });
+
+// The engine's bits do not depend on threads and domains, nor do the figures made of them.
+TEST(GasPhysics, FiguresAreTheSameWithThreadsAndDomains) {
+    constexpr Mixture kMixture{{0.5, 0.5}, {1, 0.5}, {1, 3}};
+    const auto measured = [&](const WorldOptions& options) {
+        return periodic_mixture({2000, 0.04, 100, 11, options}, kMixture);
+    };
+    const std::vector<Figure> alone = measured({.threads = 1, .domains = 1});
+    const std::vector<Figure> shared = measured({.threads = 2, .domains = 6});
+    ASSERT_EQ(alone.size(), 5u);
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        EXPECT_EQ(alone[i].measured.value, shared[i].measured.value) << alone[i].quantity;
+        EXPECT_EQ(alone[i].measured.error, shared[i].measured.error) << alone[i].quantity;
     }
-    const double error = std::sqrt((square - mean * mean) / (kRuns - 1));
-    EXPECT_NEAR(mean, (1 - kPacking) / (1 - 2 * kPacking), 4 * error);
-    EXPECT_LT(error, 0.01);
 }
 
-// Haff's law in the form ln(T0 / T) = k c, with c the collisions a particle has had (van Noije and Ernst
-// 1998).
-TEST(GasPhysics, HaffCooling) {
-    for (const Row& row : read_table("haff_cooling.csv")) {
-        const double packing = std::stod(row[0]);
-        const double restitution = std::stod(row[1]);
-        const double rate = std::stod(row[5]);
-        constexpr std::size_t kDiscs = 4900;
-        Scene s = filled(kDiscs, packing, 9);
-        s.contact_time = 0;
-        s.fills[0].restitution = restitution;
-        World world(s);
-        run_collisions(world, 2);  // the velocities leave the Maxwell distribution
-        const double energy = world.kinetic_energy();
-        const auto collisions = double(world.counts().ball_collisions);
-        while (2 * (double(world.counts().ball_collisions) - collisions) < 10 * kDiscs) world.step(0.1);
-        const double each = 2 * (double(world.counts().ball_collisions) - collisions) / kDiscs;
-        EXPECT_NEAR(std::log(energy / world.kinetic_energy()) / each / rate, 1, 0.03)
-            << "packing " << packing;
-    }
+// x_k = c x_(k-1) + noise: the mean of n has the variance s^2 / n (1 + c) / (1 - c), s^2 that of x.
+TEST(Blocking, FindsTheErrorOfCorrelatedValues) {
+    constexpr int kValues = 1 << 16;
+    constexpr double kMemory = 0.9;
+    test::Random random(59);
+    std::vector<double> series;
+    double x = 0;
+    for (int k = 0; k < kValues; ++k) series.push_back(x = kMemory * x + random.uniform(-1, 1));
+    const double variance = 1.0 / 3 / (1 - kMemory * kMemory);
+    const double error = std::sqrt(variance / kValues * (1 + kMemory) / (1 - kMemory));
+    const Estimate estimate = mean_of(series);
+    EXPECT_NEAR(estimate.value, 0, 3 * error);
+    // Blocks of 20 correlation lengths, or 400 values, still miss a twentieth; errors of 100 such blocks are
+    // known to 7 %, three times that.
+    EXPECT_NEAR(estimate.error / error, 1, 0.05 + 0.21);
+    EXPECT_TRUE(estimate.is_settled);
+}
+
+// A walk has no error that longer blocks do not enlarge.
+TEST(Blocking, SaysWhereItDoesNotSettle) {
+    test::Random random(60);
+    std::vector<double> walk;
+    double x = 0;
+    for (int k = 0; k < 4096; ++k) walk.push_back(x += random.uniform(-1, 1));
+    EXPECT_FALSE(mean_of(walk).is_settled);
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::accuracy
