@@ -25,8 +25,8 @@ constexpr const char* kUsage =
     "  --check-every N  one query in N goes to the slow oracles as well (1000)\n"
     "  --length F       of the runs of physics, a share of the usual ones (1, some 15 minutes)\n"
     "  --only TABLE     straight, curved, walls, seam, response, drift, speed or physics; or a part of it:\n"
-    "                   physics_state, physics_velocities, physics_walls, physics_gravity, physics_cooling,\n"
-    "                   physics_mixtures\n";
+    "                   physics_gas, physics_dense, physics_velocities, physics_walls, physics_gravity,\n"
+    "                   physics_cooling, physics_mixtures\n";
 
 struct Options {
     Effort effort{100000, 1000};

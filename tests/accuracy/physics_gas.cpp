@@ -26,9 +26,7 @@ std::pair<double, double> reference(double packing) {
 }
 
 Figure compressibility_figure(const GasRun& run, const GasSeries& series, double temperature) {
-    const double scale = 1 / (2 * static_cast<double>(run.discs) * temperature * series.block_time);
-    Estimate z = scaled(mean_of(series.virial), scale);
-    z.value += 1;
+    const Estimate z = compressibility_of(series, run.discs, temperature);
     const auto [infinite, error] = reference(run.packing);
     const double shift = finite_size_shift(run.packing, static_cast<double>(run.discs));
     // The next order of the shift, and what its derivatives are off by: a twentieth of it at these sizes.

@@ -48,9 +48,7 @@ struct Species {
 /// off by there. The shift for finite size is exact at low density.
 Figure compressibility_figure(const GasRun& run, const Mixture& mixture, const GasSeries& series,
                               double temperature) {
-    Estimate z = scaled(mean_of(series.virial),
-                        1 / (2 * static_cast<double>(run.discs) * temperature * series.block_time));
-    z.value += 1;
+    const Estimate z = compressibility_of(series, run.discs, temperature);
     const double eta = run.packing;
     const double second =
         1 + mixture.mean_diameter() * mixture.mean_diameter() / mixture.mean_diameter_squared();

@@ -57,6 +57,13 @@ GasSeries measure_gas(World& world, int blocks, double block_time, const std::fu
     return series;
 }
 
+Estimate compressibility_of(const GasSeries& series, std::size_t discs, double temperature) {
+    Estimate z = scaled(mean_of(series.virial),
+                        1 / (2 * static_cast<double>(discs) * temperature * series.block_time));
+    z.value += 1;
+    return z;
+}
+
 double periodic_temperature(const World& world) {
     return world.kinetic_energy() / static_cast<double>(world.ball_count() - 1);
 }

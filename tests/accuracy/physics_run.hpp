@@ -8,9 +8,6 @@
 
 namespace carom::accuracy {
 
-/// Equal discs, what most systems are made of.
-inline constexpr Mixture kEqualDiscs{{1, 0}, {1, 1}, {1, 1}};
-
 /// Side of the square in which so many discs have the packing.
 double side_of(const GasRun& run, const Mixture& mixture);
 
@@ -27,6 +24,9 @@ struct GasSeries {
 };
 GasSeries measure_gas(World& world, int blocks, double block_time,
                       const std::function<void()>& after_each = {});
+
+/// Z = 1 + W / (2 N k T t) of a periodic box.
+Estimate compressibility_of(const GasSeries& series, std::size_t discs, double temperature);
 
 /// k T of a periodic box, whose 2 (N - 1) velocities at rest as a whole share the energy.
 double periodic_temperature(const World& world);

@@ -67,6 +67,21 @@ Estimate ratio_of(const std::vector<double>& a, const std::vector<double>& b) {
     return estimate;
 }
 
+void EqualClasses::count(double x) {
+    ++counts_[static_cast<std::size_t>(std::upper_bound(ends_.begin(), ends_.end(), x) - ends_.begin())];
+}
+
+double EqualClasses::total() const {
+    return std::accumulate(counts_.begin(), counts_.end(), 0.0);
+}
+
+double EqualClasses::chi_square() const {
+    const double expected = total() / static_cast<double>(size());
+    double sum = 0;
+    for (const double n : counts_) sum += (n - expected) * (n - expected) / expected;
+    return sum;
+}
+
 Estimate scaled(const Estimate& estimate, double factor) {
     return {estimate.value * factor, estimate.error * std::abs(factor), estimate.is_settled};
 }

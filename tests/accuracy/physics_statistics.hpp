@@ -1,6 +1,8 @@
 // Means and their standard errors from series whose neighbours depend on each other.
 #pragma once
 
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace carom::accuracy {
@@ -20,6 +22,20 @@ Estimate mean_of(std::vector<double> series);
 
 /// Sum of a over sum of b, its error from the blocks of a - (ratio) b.
 Estimate ratio_of(const std::vector<double>& a, const std::vector<double>& b);
+
+/// Counts values in classes that are equally probable.
+class EqualClasses {
+ public:
+    /// `ends`: rising, between one class and the next.
+    explicit EqualClasses(std::vector<double> ends) : ends_(std::move(ends)), counts_(ends_.size() + 1) {}
+    void count(double x);
+    [[nodiscard]] std::size_t size() const { return counts_.size(); }
+    [[nodiscard]] double total() const;
+    [[nodiscard]] double chi_square() const;
+
+ private:
+    std::vector<double> ends_, counts_;
+};
 
 /// Both value and error, times a factor known exactly.
 Estimate scaled(const Estimate& estimate, double factor);

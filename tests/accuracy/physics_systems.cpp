@@ -1,20 +1,17 @@
 // The systems of the page's section on physics.
-#include <cmath>
-
-#include "accuracy/physics_run.hpp"
+#include "accuracy/physics.hpp"
 
 namespace carom::accuracy {
 namespace {
 
-// The small discs are the heavier ones, so that nothing follows from mass going with size.
-constexpr Mixture kEvenMixture{{0.5, 0.5}, {1, 0.5}, {1, 3}};
-constexpr Mixture kUnevenMixture{{0.25, 0.75}, {1, 0.4}, {2, 1}};
-
 PhysicsSystem gas(const std::string& name, std::size_t discs, double packing, double short_run,
                   double long_run, double largest_error) {
-    return {"physics_state", name,
-            short_run,       long_run,
-            largest_error,   [=](double length) { return periodic_gas({discs, packing, length, 5}); }};
+    return {packing < 0.4 ? "physics_gas" : "physics_dense",
+            name,
+            short_run,
+            long_run,
+            largest_error,
+            [=](double length) { return periodic_gas({discs, packing, length, 5}); }};
 }
 
 PhysicsSystem velocities(const std::string& name, std::size_t discs, double short_run, double long_run) {
@@ -47,24 +44,25 @@ const std::vector<PhysicsSystem>& physics_systems() {
     static const std::vector<PhysicsSystem> kSystems = {
         gas("Gas10", 1024, 0.1, 3000, 20000, 3e-4),
         gas("Gas30", 1024, 0.3, 50000, 60000, 3e-4),
+        gas("Gas30Small", 64, 0.3, 100000, 1000000, 0),
+        {"physics_gas", "TwoDiscs", 64, 1024, 0,
+         [](double runs) { return std::vector<Figure>{two_discs(0.2, static_cast<int>(runs), 4000, 100)}; }},
         gas("Gas50", 1024, 0.5, 30000, 430000, 3e-4 * 4.1),
         gas("Gas65", 1024, 0.65, 40000, 150000, 3e-4 * 8.4),
-        {"physics_state", "TwoDiscs", 64, 1024, 0,
-         [](double runs) { return std::vector<Figure>{two_discs(0.2, static_cast<int>(runs), 4000, 100)}; }},
         velocities("Velocities1000", 1000, 10000, 100000),
         velocities("Velocities16", 16, 50000, 1000000),
         walls("Walls30", kEqualDiscs, 0.3),
         walls("Walls60", kEqualDiscs, 0.6),
-        walls("WallsMixture", kEvenMixture, 0.3),
-        {"physics_gravity", "DiluteColumn", 1000, 20000, 0,
+        walls("WallsMixture", kTwoSorts, 0.3),
+        {"physics_gravity", "DiluteColumn", 1000, 12000, 0,
          [](double length) { return dilute_column({1000, 2e-4, length, 8}); }},
-        {"physics_gravity", "DenseColumn", 40000, 300000, 0,
+        {"physics_gravity", "DenseColumn", 40000, 200000, 0,
          [](double length) { return dense_column({800, 0.45, length, 9}); }},
         {"physics_cooling", "Haff", 100, 4000, 0,
          [](double runs) { return haff_cooling(400, static_cast<int>(runs), 9); }},
-        mixture("Mixture1", kEvenMixture, 0.01, 4000, 40000),
-        mixture("Mixture30", kEvenMixture, 0.3, 4000, 50000),
-        mixture("UnevenMixture30", kUnevenMixture, 0.3, 4000, 50000)};
+        mixture("Mixture1", kTwoSorts, 0.01, 4000, 40000),
+        mixture("Mixture30", kTwoSorts, 0.3, 4000, 50000),
+        mixture("UnevenMixture30", kUnevenSorts, 0.3, 4000, 50000)};
     return kSystems;
 }
 

@@ -40,6 +40,11 @@ struct Mixture {
     [[nodiscard]] double contact(int i, int j) const { return (diameter[i] + diameter[j]) / 2; }
 };
 
+inline constexpr Mixture kEqualDiscs{{1, 0}, {1, 1}, {1, 1}};
+/// The small discs are the heavier ones, so that nothing follows from mass going with size.
+inline constexpr Mixture kTwoSorts{{0.5, 0.5}, {1, 0.5}, {1, 3}};
+inline constexpr Mixture kUnevenSorts{{0.25, 0.75}, {1, 0.4}, {2, 1}};
+
 /// Z of an infinite mixture from that of equal discs (Santos, Yuste and Lopez de Haro 1999):
 /// (1 - xi) / (1 - eta) + xi Z(eta), xi = <sigma>^2 / <sigma^2>. Exact to the second virial coefficient.
 double mixture_compressibility(const Mixture& mixture, double packing);

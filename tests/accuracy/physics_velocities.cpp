@@ -1,7 +1,6 @@
 // The distribution of velocities that collisions lead to.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 
@@ -56,16 +55,13 @@ double kurtosis(const PlaneVectors& velocities) {
 
 /// Energy and momentum are the same at each look, which fixes two of the sums that the classes make, those of
 /// v and v^2, to within a twentieth for classes as fine as these; the others it changes by about 1 / N.
-Figure chi_square(const GasRun& run, const std::vector<double>& counts) {
-    double total = 0, sum = 0;
-    for (const double n : counts) total += n;
-    for (const double n : counts) sum += (n - total / kClasses) * (n - total / kClasses) / (total / kClasses);
+Figure chi_square(const GasRun& run, const EqualClasses& classes) {
     const double freedom = kClasses - 1 - 2;
-    return {fmt::format("chi-square of {:.0f} velocity components in {} classes", total, kClasses),
+    return {fmt::format("chi-square of {:.0f} velocity components in {} classes", classes.total(), kClasses),
             system_name(run),
-            {sum, std::sqrt(2 * freedom)},
+            {classes.chi_square(), std::sqrt(2 * freedom)},
             freedom,
-            0.1};
+            0.1 + freedom / static_cast<double>(run.discs)};
 }
 
 }  // namespace
@@ -74,18 +70,16 @@ std::vector<Figure> maxwell_distribution(const GasRun& run) {
     World world(with_equal_speeds(filled_box(run, kEqualDiscs, Boundary::kPeriodic), run.seed), run.options);
     const double rate = collision_rate(run.packing);
     world.advance_to(kRelaxation / rate);
-    const std::vector<double> ends = class_ends(run.discs, world.kinetic_energy());
-    std::vector<double> counts(kClasses), kurtoses;
+    EqualClasses classes(class_ends(run.discs, world.kinetic_energy()));
+    std::vector<double> kurtoses;
     run_blocks(world, static_cast<int>(run.collisions / kBetweenLooks), kBetweenLooks / rate, [&] {
         const PlaneVectors velocities = world.velocities();
         kurtoses.push_back(kurtosis(velocities));
         for (const Vec2& v : velocities)
-            for (const double x : {v.x(), v.y()})
-                ++counts[static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), x) -
-                                                  ends.begin())];
+            for (const double x : {v.x(), v.y()}) classes.count(x);
     });
     const double dimensions = 2 * static_cast<double>(run.discs - 1);
-    return {chi_square(run, counts),
+    return {chi_square(run, classes),
             {"kurtosis of the velocity components", system_name(run), mean_of(kurtoses),
              3 * dimensions / (dimensions + 2), 0}};
 }

@@ -39,9 +39,8 @@ INSTANTIATE_TEST_SUITE_P(Systems, GasPhysics, testing::ValuesIn(physics_systems(
 
 // The engine's bits do not depend on threads and domains, nor do the figures made of them.
 TEST(GasPhysics, FiguresAreTheSameWithThreadsAndDomains) {
-    constexpr Mixture kMixture{{0.5, 0.5}, {1, 0.5}, {1, 3}};
     const auto measured = [&](const WorldOptions& options) {
-        return periodic_mixture({2000, 0.04, 100, 11, options}, kMixture);
+        return periodic_mixture({2000, 0.04, 100, 11, options}, kTwoSorts);
     };
     const std::vector<Figure> alone = measured({.threads = 1, .domains = 1});
     const std::vector<Figure> shared = measured({.threads = 2, .domains = 6});
