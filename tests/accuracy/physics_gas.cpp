@@ -1,9 +1,9 @@
 // Equation of state and rate of collisions of discs in a periodic box.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "accuracy/physics_run.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kBlocks = 1024;
 // Collisions of a disc until the start is forgotten, at the slowest: a dense lattice melts, and heat spreads
-// over the box, which takes L^2 / (4 pi^2 D), a few hundred collisions for 4,096 dense discs.
+// over the box, which takes L^2 / (4 pi^2 D), some hundred collisions for 1,024 dense discs.
 constexpr double kRelaxation = 1000;
 
 /// Z of the infinite fluid and the bound of its error, where the reference has the packing.

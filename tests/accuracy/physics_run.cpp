@@ -69,8 +69,7 @@ double periodic_temperature(const World& world) {
 }
 
 std::string system_name(const GasRun& run, const Mixture& mixture) {
-    const char* kind = mixture.share[1] > 0 ? "discs of two sorts" : "discs";
-    return fmt::format("{} {}, packing {}", run.discs, kind, run.packing);
+    return fmt::format("{} {}, packing {}", run.discs, mixture.name, run.packing);
 }
 
 }  // namespace carom::accuracy

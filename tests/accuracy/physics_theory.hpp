@@ -31,6 +31,7 @@ double sphere_factor(double dimensions);
 
 /// Two species of discs.
 struct Mixture {
+    const char* name;
     std::array<double, 2> share;  ///< of the number of discs; they add up to 1
     std::array<double, 2> diameter;
     std::array<double, 2> mass;
@@ -40,10 +41,10 @@ struct Mixture {
     [[nodiscard]] double contact(int i, int j) const { return (diameter[i] + diameter[j]) / 2; }
 };
 
-inline constexpr Mixture kEqualDiscs{{1, 0}, {1, 1}, {1, 1}};
+inline constexpr Mixture kEqualDiscs{"discs", {1, 0}, {1, 1}, {1, 1}};
 /// The small discs are the heavier ones, so that nothing follows from mass going with size.
-inline constexpr Mixture kTwoSorts{{0.5, 0.5}, {1, 0.5}, {1, 3}};
-inline constexpr Mixture kUnevenSorts{{0.25, 0.75}, {1, 0.4}, {2, 1}};
+inline constexpr Mixture kTwoSorts{"discs of two sorts", {0.5, 0.5}, {1, 0.5}, {1, 3}};
+inline constexpr Mixture kUnevenSorts{"discs of two uneven sorts", {0.25, 0.75}, {1, 0.4}, {2, 1}};
 
 /// Z of an infinite mixture from that of equal discs (Santos, Yuste and Lopez de Haro 1999):
 /// (1 - xi) / (1 - eta) + xi Z(eta), xi = <sigma>^2 / <sigma^2>. Exact to the second virial coefficient.

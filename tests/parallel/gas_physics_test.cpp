@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Systems, GasPhysics, testing::ValuesIn(physics_systems(
 // The engine's bits do not depend on threads and domains, nor do the figures made of them.
 TEST(GasPhysics, FiguresAreTheSameWithThreadsAndDomains) {
     const auto measured = [&](const WorldOptions& options) {
-        return periodic_mixture({2000, 0.04, 100, 11, options}, kTwoSorts);
+        return periodic_mixture({2000, 0.04, 400, 11, options}, kTwoSorts);
     };
     const std::vector<Figure> alone = measured({.threads = 1, .domains = 1});
     const std::vector<Figure> shared = measured({.threads = 2, .domains = 6});
