@@ -23,10 +23,12 @@ constexpr const char* kUsage =
     "  --queries N      queries a kind (100000); 10000000 takes hours for the quartic\n"
     "  --collisions N   collisions of the longest drift (10000000)\n"
     "  --check-every N  one query in N goes to the slow oracles as well (1000)\n"
-    "  --length F       of the runs of physics, a share of the usual ones (1, some 15 minutes)\n"
+    "  --length F       of the runs of physics, a share of the usual ones, from 0.01 (1, some 15 minutes)\n"
     "  --only TABLE     straight, curved, walls, seam, response, drift, speed or physics; or a part of it:\n"
     "                   physics_gas, physics_dense, physics_velocities, physics_walls, physics_gravity,\n"
     "                   physics_cooling, physics_mixtures\n";
+
+constexpr double kShortest = 0.01;  // of --length: some runs need a few blocks for an error
 
 struct Options {
     Effort effort{100000, 1000};
@@ -149,7 +151,7 @@ void print_tables(const Options& options) {
     print_physics(options);
 }
 
-/// False where an option is unknown or not a number above 0.
+/// False where an option is unknown or not a number above 0, or a length too short.
 bool read(int argc, char** argv, Options& options) {
     for (int i = 1; i + 1 < argc; i += 2) {
         const std::string name = argv[i];
@@ -160,7 +162,7 @@ bool read(int argc, char** argv, Options& options) {
         }
         if (name == "--length") {
             options.length = std::atof(argv[i + 1]);
-            if (!(options.length > 0)) return false;
+            if (!(options.length >= kShortest)) return false;
             continue;
         }
         if (number <= 0) return false;
