@@ -43,7 +43,7 @@ Scene Column::scene(std::uint64_t seed) const {
     std::uint64_t placed = 0;
     for (std::size_t k = 0; k < per_width_.size(); ++k) {
         sum += per_width_[k] * width_;
-        const auto end = k + 1 < per_width_.size() ? static_cast<std::uint64_t>(sum + 0.5) : discs_;
+        const auto end = k + 1 < per_width_.size() ? static_cast<std::uint64_t>(std::llround(sum)) : discs_;
         if (end > placed) s.fills.push_back(fill(end - placed, static_cast<double>(k) * layer_, seed));
         placed = std::max(placed, end);
     }

@@ -147,7 +147,7 @@ std::vector<Figure> dilute_column(const GasRun& run) {
     const double rate = collision_rate(run.packing) / 2;  // the density that a disc meets is half the floor's
     constexpr double kBetweenLooks = 5;                   // collisions of a disc, and some falls
     world.advance_to(10 * kBetweenLooks / rate);
-    Load load(world);
+    Load load(world);  // NOLINT(misc-const-correctness): its listener counts
     // The lowest place of a centre is a radius above the floor.
     const double top = world.energy() * scale_height - discs * 0.5;
     Heights heights({top, 2 * discs - 1.5});
@@ -164,7 +164,7 @@ std::vector<Figure> dense_column(const GasRun& run) {
     World world(column.scene(run.seed), run.options);
     const double rate = collision_rate(run.packing);
     world.advance_to(kColumnRelaxation / rate);
-    Load load(world);
+    Load load(world);  // NOLINT(misc-const-correctness): its listener counts
     Profile profile({8, 14, 20, 27, 35, 45});
     run_blocks(world, static_cast<int>(run.collisions), 1 / rate, [&] { profile.look(world); });
     std::vector<Figure> figures = load.figures(column, column_name(run));

@@ -41,12 +41,14 @@ PhysicsSystem mixture(const std::string& name, const Mixture& mixture, double pa
 // Short runs for seconds, long ones for a minute or two, at a million collisions of two discs a second. The
 // errors asked for are 3e-4, of Z itself up to packing 0.3 and relative to Z above.
 const std::vector<PhysicsSystem>& physics_systems() {
-    static const std::vector<PhysicsSystem> kSystems = {
+    static const std::vector<PhysicsSystem> systems = {
         gas("Gas10", 1024, 0.1, 3000, 20000, 3e-4),
         gas("Gas30", 1024, 0.3, 50000, 60000, 3e-4),
         gas("Gas30Small", 64, 0.3, 100000, 2000000, 0),
         {"physics_gas", "TwoDiscs", 64, 1024, 0,
-         [](double runs) { return std::vector<Figure>{two_discs(0.2, static_cast<int>(runs), 4000, 100)}; }},
+         [](double runs) {
+             return std::vector<Figure>{two_discs(0.2, static_cast<int>(runs), 4000.0, 100)};
+         }},
         gas("Gas50", 1024, 0.5, 30000, 430000, 3e-4 * 4.1),
         gas("Gas65", 1024, 0.65, 40000, 150000, 3e-4 * 8.4),
         velocities("Velocities1000", 1000, 10000, 100000),
@@ -63,7 +65,7 @@ const std::vector<PhysicsSystem>& physics_systems() {
         mixture("Mixture1", kTwoSorts, 0.01, 4000, 40000),
         mixture("Mixture30", kTwoSorts, 0.3, 4000, 50000),
         mixture("UnevenMixture30", kUnevenSorts, 0.3, 4000, 50000)};
-    return kSystems;
+    return systems;
 }
 
 }  // namespace carom::accuracy
