@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "accuracy/physics.hpp"
 #include "accuracy/precision_cost.hpp"
 #include "accuracy/response_accuracy.hpp"
 #include "accuracy/rest.hpp"
@@ -21,16 +22,23 @@ namespace carom::accuracy {
 namespace {
 
 constexpr const char* kUsage =
-    "carom_accuracy [--queries N] [--collisions N] [--check-every N] [--only TABLE] [--kind TEXT]\n"
+    "carom_accuracy [--queries N] [--collisions N] [--check-every N] [--length F] [--only TABLE] [--kind "
+    "TEXT]\n"
     "  --queries N      queries a kind (100000); 10000000 takes about half an hour for a table\n"
     "  --collisions N   collisions of the longest drift (10000000)\n"
     "  --check-every N  one query in N goes to the slow oracles as well (1000)\n"
-    "  --only TABLE     straight, curved, walls, seam, response, drift, systems, rest, precision or speed\n"
+    "  --length F       of the runs of physics, a share of the usual ones, from 0.01 (1, some 15 minutes)\n"
+    "  --only TABLE     straight, curved, walls, seam, response, drift, systems, rest, precision, speed or\n"
+    "                   physics; or a part of it: physics_gas, physics_dense, physics_velocities,\n"
+    "                   physics_walls, physics_gravity, physics_cooling, physics_mixtures\n"
     "  --kind TEXT      of straight, curved and walls, only the kinds whose names have this in them\n";
+
+constexpr double kShortest = 0.01;  // of --length: some runs need a few blocks for an error
 
 struct Options {
     Effort effort{100000, 1000};
     std::int64_t collisions = 10000000;
+    double length = 1;
     std::string only;
     std::string kind;
 };
@@ -40,9 +48,10 @@ void print(const std::string& text) {
     std::fflush(stdout);
 }
 
-/// True when the table is wanted; names it.
+/// True when the table, or all that it is a part of, is wanted; names it.
 bool begin(const Options& options, const std::string& table) {
-    if (!options.only.empty() && options.only != table) return false;
+    if (!options.only.empty() && options.only != table && !table.starts_with(options.only + "_"))
+        return false;
     print("table " + table + "\n");
     return true;
 }
@@ -143,6 +152,21 @@ void print_speed() {
                           100 * row.eigen_wrong));
 }
 
+void print_physics(const Options& options) {
+    std::string table;
+    bool is_wanted = false;
+    for (const PhysicsSystem& system : physics_systems()) {
+        if (system.table != table) {
+            table = system.table;
+            is_wanted = begin(options, table);
+            if (is_wanted) print(physics_header());
+        }
+        if (!is_wanted) continue;
+        for (const Figure& figure : system.measure(system.long_run * options.length))
+            print(physics_line(figure));
+    }
+}
+
 void print_tables(const Options& options) {
     if (begin(options, "straight")) print_times(straight_kinds(), 1000, options);
     if (begin(options, "curved")) print_times(curved_kinds(), 2000, options);
@@ -154,15 +178,21 @@ void print_tables(const Options& options) {
     if (begin(options, "precision")) print_precision();
     if (begin(options, "systems")) print_systems();
     if (begin(options, "speed")) print_speed();
+    print_physics(options);
 }
 
-/// False where an option is unknown or not a number above 0.
+/// False where an option is unknown or not a number above 0, or a length too short.
 bool read(int argc, char** argv, Options& options) {
     for (int i = 1; i + 1 < argc; i += 2) {
         const std::string name = argv[i];
         const std::int64_t number = std::atoll(argv[i + 1]);
         if (name == "--only" || name == "--kind") {
             (name == "--only" ? options.only : options.kind) = argv[i + 1];
+            continue;
+        }
+        if (name == "--length") {
+            options.length = std::atof(argv[i + 1]);
+            if (!(options.length >= kShortest)) return false;
             continue;
         }
         if (number <= 0) return false;

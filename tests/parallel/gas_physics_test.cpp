@@ -1,101 +1,83 @@
-// Figures of statistical mechanics that others have published.
+// Statistical mechanics through the whole engine: the systems of docs/accuracy.md with short runs. A figure
+// must be within three standard errors of its expected value, and within the bound of what that is off by.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <ostream>
+#include <string>
+#include <vector>
 
-#include <carom/parallel/world.hpp>
+#include "accuracy/physics.hpp"
+#include "core/random.hpp"
 
-#include "blocks.hpp"
-#include "core/table.hpp"
-#include "scenes.hpp"
+namespace carom::accuracy {
 
-namespace carom::test {
+void PrintTo(const PhysicsSystem& system, std::ostream* out) {
+    *out << system.name;
+}
+
 namespace {
 
-Scene filled(std::size_t count, double packing, std::uint64_t seed) {
-    Scene s;
-    const double side = std::sqrt(double(count) * std::numbers::pi / 4 / packing);
-    s.domain = Domain{{{0, 0}, {side, side}}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
-    Fill fill;
-    fill.count = count;
-    fill.temperature = 1;
-    fill.seed = seed;
-    s.fills = {fill};
-    s.until = 1;
-    return s;
-}
+class GasPhysics : public testing::TestWithParam<PhysicsSystem> {};
 
-// Z from the virial, against Kolafa and Rottner 2006, corrected for the number of discs.
-TEST(GasPhysics, EquationOfState) {
-    constexpr std::size_t kDiscs = 1024;
-    constexpr int kBlocks = 20;
-    std::vector<std::pair<double, double>> table;
-    for (const Row& row : read_table("hard_disc_equation_of_state.csv"))
-        table.emplace_back(std::stod(row[0]), std::stod(row[1]));
-    for (const auto& [packing, infinite] : table) {
-        World world(filled(kDiscs, packing, 5));
-        run_collisions(world, 50);  // forget the start
-        const auto [mean, error] = compressibility_in_blocks(world, kBlocks, 40);
-        // Finite size: Z_N = Z - (eta / 2N) (2 Z' + eta Z'') / (Z + eta Z'), with the derivatives of
-        // Henderson's 1975 Z = (1 + eta^2 / 8) / (1 - eta)^2, which suffice for a correction of order 1 / N.
-        const double eta = packing;
-        const double q = 1 - eta;
-        const double z1 = 2 * (1 + eta * eta / 8) / (q * q * q) + eta / 4 / (q * q);
-        const double z2 = 6 * (1 + eta * eta / 8) / (q * q * q * q) + eta / (q * q * q) + 0.25 / (q * q);
-        const double expected = infinite - eta / (2.0 * kDiscs) * (2 * z1 + eta * z2) / (infinite + eta * z1);
-        EXPECT_NEAR(mean, expected, 4 * error) << "packing " << packing << ", standard error " << error;
-        EXPECT_LT(error, 0.004 * infinite) << "packing " << packing;
+// By chance one figure in 370 would fail; seeds are fixed, so that none does today and tomorrow.
+TEST_P(GasPhysics, Agrees) {
+    const PhysicsSystem& system = GetParam();
+    const std::vector<Figure> figures = system.measure(system.short_run);
+    for (const Figure& figure : figures) {
+        SCOPED_TRACE(physics_line(figure));
+        EXPECT_TRUE(figure.agrees());
+        EXPECT_TRUE(figure.measured.is_settled) << "longer blocks have larger errors";
+    }
+    if (system.largest_error > 0) {
+        EXPECT_LE(figures.front().measured.error, system.largest_error);
     }
 }
 
-// Two discs in a periodic box: Z = (1 - eta) / (1 - 2 eta) exactly, for the relative motion is one point
-// among one obstacle's images. At packing 0.35 the box is not five cells wide.
-TEST(GasPhysics, TwoDiscsInAPeriodicBox) {
-    for (const double packing : {0.1, 0.2, 0.35}) {
-        const double side = std::sqrt(2 * std::numbers::pi / 4 / packing);
-        std::vector<double> runs;
-        for (int run = 0; run < 40; ++run) {
-            std::mt19937_64 random(100 + run);
-            Scene s;
-            s.domain = Domain{{{0, 0}, {side, side}}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
-            s.until = 1;
-            s.balls.resize(2);
-            s.balls[1].position = {side / 2, uniform(random, side / 4, side / 2)};
-            const double angle = uniform(random, 0, 2 * std::numbers::pi);
-            s.balls[0].velocity = {std::cos(angle), std::sin(angle)};
-            s.balls[1].velocity = -s.balls[0].velocity;
-            World world(s);
-            world.advance_to(4000);
-            runs.push_back(world.compressibility_factor().value());
-        }
-        const auto [mean, error] = block_mean(runs);
-        EXPECT_NEAR(mean, (1 - packing) / (1 - 2 * packing), 4 * error) << "packing " << packing;
-        EXPECT_LT(error, 0.01) << "packing " << packing;
+INSTANTIATE_TEST_SUITE_P(Systems, GasPhysics, testing::ValuesIn(physics_systems()),
+                         [](const auto& param) { return param.param.name; });
+
+// The engine's bits do not depend on threads and domains, nor do the figures made of them.
+TEST(GasPhysics, FiguresAreTheSameWithThreadsAndDomains) {
+    const auto measured = [&](const WorldOptions& options) {
+        return periodic_mixture({2000, 0.04, 400, 11, options}, kTwoSorts);
+    };
+    const std::vector<Figure> alone = measured({.threads = 1, .domains = 1});
+    const std::vector<Figure> shared = measured({.threads = 2, .domains = 6});
+    ASSERT_EQ(alone.size(), 5u);
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        EXPECT_EQ(alone[i].measured.value, shared[i].measured.value) << alone[i].quantity;
+        EXPECT_EQ(alone[i].measured.error, shared[i].measured.error) << alone[i].quantity;
     }
 }
 
-// Haff's law in the form ln(T0 / T) = k c, with c the collisions a particle has had (van Noije and Ernst
-// 1998).
-TEST(GasPhysics, HaffCooling) {
-    for (const Row& row : read_table("haff_cooling.csv")) {
-        const double packing = std::stod(row[0]);
-        const double restitution = std::stod(row[1]);
-        const double rate = std::stod(row[5]);
-        constexpr std::size_t kDiscs = 4900;
-        Scene s = filled(kDiscs, packing, 9);
-        s.contact_time = 0;
-        s.fills[0].restitution = restitution;
-        World world(s);
-        run_collisions(world, 2);  // the velocities leave the Maxwell distribution
-        const double energy = world.kinetic_energy();
-        const auto collisions = double(world.counts().ball_collisions);
-        while (2 * (double(world.counts().ball_collisions) - collisions) < 10 * kDiscs) world.step(0.1);
-        const double each = 2 * (double(world.counts().ball_collisions) - collisions) / kDiscs;
-        EXPECT_NEAR(std::log(energy / world.kinetic_energy()) / each / rate, 1, 0.03)
-            << "packing " << packing;
-    }
+/// x_k = memory x_(k-1) + noise, uniform in [-1, 1).
+std::vector<double> correlated(std::size_t values, double memory, std::uint64_t seed) {
+    test::Random random(seed);
+    std::vector<double> series(values);
+    double x = 0;
+    for (double& value : series) value = x = memory * x + random.uniform(-1, 1);
+    return series;
+}
+
+// The mean of n has the variance s^2 / n (1 + c) / (1 - c), s^2 that of x and c the memory.
+TEST(Blocking, FindsTheErrorOfCorrelatedValues) {
+    constexpr std::size_t kValues = 1 << 16;
+    constexpr double kMemory = 0.9;
+    const double variance = 1.0 / 3 / (1 - kMemory * kMemory);
+    const double error = std::sqrt(variance / kValues * (1 + kMemory) / (1 - kMemory));
+    const Estimate estimate = mean_of(correlated(kValues, kMemory, 59));
+    EXPECT_NEAR(estimate.value, 0, 3 * error);
+    // Blocks of 512 values miss 2 % of the error, and 128 of them know it to 6 %; the level chosen differs
+    // from theirs by no more than the uncertainties of both: four of them.
+    EXPECT_NEAR(estimate.error / error, 1, 0.02 + 4 * 0.06);
+    EXPECT_TRUE(estimate.is_settled);
+}
+
+// A walk has no error that longer blocks do not enlarge.
+TEST(Blocking, SaysWhereItDoesNotSettle) {
+    EXPECT_FALSE(mean_of(correlated(4096, 1, 60)).is_settled);
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::accuracy
