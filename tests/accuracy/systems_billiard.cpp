@@ -40,6 +40,7 @@ struct Line {
 /// Walls from corner to corner, counter-clockwise.
 std::vector<Wall> closed(const std::vector<Vec2>& corners) {
     std::vector<Wall> walls;
+    walls.reserve(corners.size());
     for (std::size_t k = 0; k < corners.size(); ++k)
         walls.push_back({corners[k], corners[(k + 1) % corners.size()], 1});
     return walls;
@@ -56,6 +57,7 @@ std::vector<Wall> regular(int corners, double radius) {
 
 std::vector<Line> lines_of(const std::vector<Wall>& walls, double radius) {
     std::vector<Line> lines;
+    lines.reserve(walls.size());
     for (const Wall& w : walls) lines.emplace_back(w, radius);
     return lines;
 }

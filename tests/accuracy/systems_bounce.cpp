@@ -72,7 +72,7 @@ Deviation zeno(double restitution, bool of_times) {
 /// Lehtihet and Miller 1986: the wedge of half angle 45 degrees is the integrable one. Seen along its sides,
 /// the ball bounces on each as on a floor. Upright on two walls at 45 degrees, or on the sides of the box
 /// with gravity along the diagonal.
-Deviation wedge(bool upright, double end) {
+Deviation wedge(bool upright, int end) {
     constexpr double kReach = 64;
     const long double root = std::numbers::sqrt2_v<long double>;
     Scene s;
@@ -96,7 +96,7 @@ Deviation wedge(bool upright, double end) {
         for (int axis = 0; axis < 2; ++axis) points.emplace_back(x[axis] - 0.5L, v[axis], 0.75L);
     }
     World world(s, {.threads = 1});
-    for (double time = 1; time <= end; ++time) {
+    for (int time = 1; time <= end; ++time) {
         world.advance_to(time);
         const Vec2 now = world.positions()[0];
         for (int axis = 0; axis < 2; ++axis) {

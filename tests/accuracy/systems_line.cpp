@@ -53,9 +53,10 @@ Scene scene_of(const Line& line) {
     return s;
 }
 
-Scene bounded(const Line& line, Boundary boundary) {
+/// `above`: room over the line's length.
+Scene bounded(const Line& line, Boundary boundary, double above = 0) {
     Scene s = scene_of(line);
-    s.domain = Domain{{{-10, 0}, {10, line.length + kBalls}}, {Boundary::kOpen, boundary}, 1};
+    s.domain = Domain{{{-10, 0}, {10, line.length + kBalls + above}}, {Boundary::kOpen, boundary}, 1};
     return s;
 }
 
@@ -162,6 +163,7 @@ Deviation open_line(double gravity, double end) {
             if (rate * end > gap) crossings.push_back({gap / rate, i, j, double(rate)});
         }
     std::vector<long double> places;
+    places.reserve(kBalls);
     for (int k = 0; k < kBalls; ++k)
         places.push_back(line.place[k] + static_cast<long double>(line.speed[k]) * end -
                          static_cast<long double>(gravity) * end * end / 2);
@@ -187,6 +189,7 @@ Deviation walled_line(double end) {
     const Line line = random_line(62, 0.05);
     std::vector<Crossing> crossings;
     std::vector<long double> places;
+    places.reserve(kBalls);
     for (int i = 0; i < kBalls; ++i) {
         add_multiples(crossings, i, i, line.place[i], line.speed[i], line.length, end);
         for (int j = i + 1; j < kBalls; ++j) {
@@ -223,6 +226,7 @@ Deviation periodic_line(double end) {
     std::ranges::sort(sorted);
     const auto turns = static_cast<long>(std::lround(ways / line.length));
     std::vector<long double> places;
+    places.reserve(kBalls);
     for (int k = 0; k < kBalls; ++k) {
         const long of = ((k + turns) % kBalls + kBalls) % kBalls;
         const long laps = (k + turns - of) / kBalls;
@@ -256,9 +260,11 @@ Deviation column(double end) {
     Line line = random_line(64, 0.05);
     line.gravity = 0.5;
     std::vector<BouncingPoint> points;
+    points.reserve(kBalls);
     for (int k = 0; k < kBalls; ++k) points.emplace_back(line.place[k], line.speed[k], line.gravity);
     std::vector<Crossing> crossings;
     std::vector<long double> places;
+    places.reserve(kBalls);
     double fastest = 0;
     for (int i = 0; i < kBalls; ++i) {
         fastest = std::max(fastest, points[i].impact_speed());
@@ -273,11 +279,11 @@ Deviation column(double end) {
         for (const int k : {c.i, c.j}) ++events[k];
     const EventError each = event_error(2 * line.length + kBalls, fastest, line.gravity);
     std::vector<double> bounds;
+    bounds.reserve(kBalls);
     for (int k = 0; k < kBalls; ++k)
         bounds.push_back(points[k].bound(events[k] + 1, end, each.place, each.speed));
-    Scene s = bounded(line, Boundary::kWall);
-    s.domain->box.max.y() = 4 * (line.length + kBalls);
-    return compare(s, end, crossings, false, places, bounds, 0);
+    const double high = 3 * (line.length + kBalls);  // above all bounces
+    return compare(bounded(line, Boundary::kWall, high), end, crossings, false, places, bounds, 0);
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ Deviation late_and_early(bool of_energy) {
     constexpr double kOn = 3;
     late.advance_to(time + std::ceil(kOn * free_time));
     early.advance_to(std::ceil(kOn * free_time));
-    const double side = s.domain->box.max.x();
+    const double side = late.domain().box.max.x();
     for (int i = 0; i < 2; ++i)
         for (int axis = 0; axis < 2; ++axis)
             d.include(std::abs(std::remainder(late.positions()[i][axis] - early.positions()[i][axis], side)),

@@ -55,7 +55,7 @@ Deviation reverse(const ReversalCase& c, double fault) {
     d.expected = forth.counts().ball_collisions + forth.counts().wall_collisions;
     d.collisions = back.counts().ball_collisions + back.counts().wall_collisions;
     const PlaneVectors x = back.positions();
-    const double side = s.domain->box.max.x();
+    const double side = back.domain().box.max.x();
     for (std::size_t i = 0; i < start.size(); ++i)
         for (int axis = 0; axis < 2; ++axis) {
             double error = x[i][axis] - start[i].position[axis];
