@@ -14,8 +14,8 @@ constexpr double kFewestOfThread = 2000;
 
 int choose_domains(const Bodies& bodies, const Executor& executor, int wanted) {
     if (!bodies.large.empty()) return 1;  // a large ball's surroundings may be the whole plane
-    if (wanted > 0) return wanted;
     const double balls = bodies.moving;
+    if (wanted > 0) return static_cast<int>(std::min<double>(wanted, std::max(1.0, balls)));
     const double by_cache = std::floor(balls / kBallsOfDomain);
     const double by_threads = std::min<double>(executor.threads(), std::floor(balls / kFewestOfThread));
     if (by_threads < 2) return by_cache < 4 ? 1 : static_cast<int>(by_cache);
@@ -99,7 +99,9 @@ std::unique_ptr<Engine> make_engine(const Bodies& bodies, std::span<const Ball> 
                                     const Executor& executor, const WorldOptions& options) {
     const int domains = choose_domains(bodies, executor, options.domains);
     if (domains <= 1) return std::make_unique<SerialEngine>(bodies, balls, executor);
-    return make_windowed_engine(bodies, balls, executor, domains, options.halo);
+    // A halo as wide as the plane holds all there is.
+    const int halo = std::min(options.halo, std::max(bodies.grid.x.count(), bodies.grid.y.count()));
+    return make_windowed_engine(bodies, balls, executor, domains, halo);
 }
 
 }  // namespace carom

@@ -126,6 +126,7 @@ void WindowedEngine::commit() {
         index_records(d);
     });
     std::size_t most = 0;
+    was_quiet_ = std::ranges::all_of(domains_, [](const DomainState& d) { return d.events == 0; });
     for (const DomainState& d : domains_) {
         counts_.events += d.events;
         counts_.copied_collisions += d.copied_collisions;
@@ -138,10 +139,25 @@ void WindowedEngine::commit() {
         split_anew();
 }
 
+/// A window ends with its epoch at the latest. Between windows, epochs in which nothing happens are left out.
+void WindowedEngine::skip_quiet_epochs(const Time& until) {
+    const Clock& clock = bodies_.physics.clock;
+    Time first = until;
+    for (const DomainState& d : domains_)
+        for (const BallRecord& r : d.records)
+            first = std::min({first, r.next.time, clock.after({window_start_.epoch, 0}, r.crossing_time)});
+    if (first.epoch <= window_start_.epoch) return;
+    const double passed = clock.epoch_length() * (double(first.epoch) - double(window_start_.epoch));
+    for (DomainState& d : domains_)
+        for (BallRecord& r : d.records) r.crossing_time -= passed;
+    window_start_ = {first.epoch, 0};
+}
+
 /// One window more, on the way to `wanted` or beyond it.
 void WindowedEngine::next_window(const Time& wanted, const Time& horizon) {
     const Clock& clock = bodies_.physics.clock;
     commit();
+    if (was_quiet_) skip_quiet_epochs(std::min(wanted, horizon));
     const double least = clock.epoch_length() * kLeastWindow;
     for (int shortenings = 0;; ++shortenings) {
         const bool gives_up = shortenings > kMostShortenings || (shortenings > 0 && window_length_ <= least);

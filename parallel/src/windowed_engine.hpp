@@ -78,6 +78,7 @@ class WindowedEngine final : public Engine {
     void run_together(const Time& window_end, bool inclusive);
     void predict_anew(bool renews_field);
     void next_window(const Time& wanted, const Time& horizon);
+    void skip_quiet_epochs(const Time& until);
     void commit();
     void rewind_to_now();
     void tell_until(const Time& end);
@@ -114,6 +115,7 @@ class WindowedEngine final : public Engine {
     double growth_;
     double target_ = 1;  // collisions a ball in a window
     int since_split_ = 0;
+    bool was_quiet_ = false;  // the last window had no event
 };
 
 /// A workshop taken from the idle ones for a while.

@@ -114,6 +114,30 @@ std::vector<NamedScene> simultaneous_scenes() {
     return all;
 }
 
+// One event after 3 * 10^8 crossing times of nothing, and then nothing for ever: as many windows as there is
+// something to do.
+TEST(QuietDomains, SkipWhatIsEmpty) {
+    Scene far;
+    far.domain = Domain{{{0, 0}, {1e9, 1e9}}, {Boundary::kWall, Boundary::kWall}, 1};
+    far.until = 1e9;
+    far.balls.resize(2);
+    far.balls[0].position = {5, 5};
+    far.balls[0].velocity = {1, 0};
+    far.balls[1].position = {3e8, 5};
+    Scene open;
+    open.until = 1e3;
+    open.balls.resize(2);
+    open.balls[1].position = {3, 0};
+    open.balls[1].velocity = {1e9, 0};
+    for (Scene s : {far, open}) {
+        const Outcome serial = run(s, {.threads = 1, .domains = 1}, s.until);
+        const Outcome outcome = run(s, {.threads = 2, .domains = 4}, s.until);
+        expect_equal(outcome, serial);
+        EXPECT_LT(outcome.counts.windows, 10'000u);
+        expect_equal(run(s, {.threads = 2, .domains = 4}, s.until, s.until / 7), serial);
+    }
+}
+
 class Domains : public testing::TestWithParam<NamedScene> {};
 
 TEST_P(Domains, GiveTheSerialResult) {
