@@ -72,7 +72,7 @@ template <class T>
 /// Velocities are kept as computed.
 struct AsComputed {
     template <class T>
-    [[nodiscard]] const T& operator()(const T& velocity) const {
+    [[nodiscard]] T operator()(const T& velocity) const {
         return velocity;
     }
 };
