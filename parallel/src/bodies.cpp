@@ -56,14 +56,10 @@ Bodies::Bodies(const Physics& scene_physics, std::span<const Ball> balls, std::s
     choose_margins();
 }
 
-Vec2 Bodies::held_position(const Vec2& position, Periods& away) const {
-    const auto held = [this](const GridAxis& axis, double x, std::int32_t& periods) {
-        const double inside = axis.wrapped(x, periods);
-        if (!physics.in_float) return inside;
-        // Rounding may reach the upper side, which is the lower one of the next period.
-        return rounded_to_float(axis.wrapped(rounded_to_float(inside), periods));
-    };
-    return {held(grid.x, position.x(), away.x), held(grid.y, position.y(), away.y)};
+/// Rounding may reach the upper side, which is the lower one of the next period.
+Vec2 Bodies::rounded_position(const Vec2& inside, Periods& away) const {
+    return {rounded_to_float(grid.x.wrapped(rounded_to_float(inside.x()), away.x)),
+            rounded_to_float(grid.y.wrapped(rounded_to_float(inside.y()), away.y))};
 }
 
 /// Margins within which bound_times() and the exact prediction agree.

@@ -67,7 +67,10 @@ struct Bodies {
     [[nodiscard]] bool needs_extras() const { return accelerates_each() || physics.contact_time > 0; }
     /// A position as an anchor holds it: in the box, and rounded where states are held in float. Counts the
     /// periods that it was away.
-    [[nodiscard]] Vec2 held_position(const Vec2& position, Periods& away) const;
+    [[nodiscard]] Vec2 held_position(const Vec2& position, Periods& away) const {
+        const Vec2 inside = {grid.x.wrapped(position.x(), away.x), grid.y.wrapped(position.y(), away.y)};
+        return physics.in_float ? rounded_position(inside, away) : inside;
+    }
     [[nodiscard]] Vec2 held_velocity(const Vec2& velocity) const {
         return physics.in_float ? rounded_to_float(velocity) : velocity;
     }
@@ -77,6 +80,7 @@ struct Bodies {
     }
 
  private:
+    [[nodiscard]] Vec2 rounded_position(const Vec2& inside, Periods& away) const;
     void choose_margins();
 };
 
