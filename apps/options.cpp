@@ -68,10 +68,14 @@ CLI::Validator xyz_path() {
             ""};
 }
 
+const char* name_of(Precision precision) {
+    return precision == Precision::kFloat ? "float" : "double";
+}
+
 CLI::Option* add_precision_option(CLI::App& command, const std::string& name,
                                   std::optional<Precision>& precision, const std::string& description) {
-    const std::map<std::string, Precision> words = {{"double", Precision::kDouble},
-                                                    {"float", Precision::kFloat}};
+    std::map<std::string, Precision> words;
+    for (const Precision p : {Precision::kDouble, Precision::kFloat}) words[name_of(p)] = p;
     return command
         .add_option_function<std::string>(
             name, [&precision, words](const std::string& word) { precision = words.at(word); }, description)

@@ -21,6 +21,9 @@ namespace carom::app {
 /// A path that ends in .xyz.
 [[nodiscard]] CLI::Validator xyz_path();
 
+/// `double` or `float`, as options and outputs have it.
+[[nodiscard]] const char* name_of(Precision precision);
+
 /// Adds an option that takes `double` or `float`.
 CLI::Option* add_precision_option(CLI::App& command, const std::string& name,
                                   std::optional<Precision>& precision, const std::string& description);

@@ -11,6 +11,7 @@
 #include <carom/io/summary.hpp>
 
 #include "driver.hpp"
+#include "options.hpp"
 #include "outputs.hpp"
 #include "picture_file.hpp"
 #include "world_picture.hpp"
@@ -93,7 +94,7 @@ Summary summary_of(const World& world, const Scene& scene, const Balance& start,
     const Counts counts = world.counts();
     Summary summary;
     summary.scene = scene.name;
-    summary.precision = scene.precision == Precision::kFloat ? "float" : "double";
+    summary.precision = name_of(scene.precision);
     summary.threads = world.threads();
     summary.balls = world.ball_count();
     summary.walls = world.wall_count();

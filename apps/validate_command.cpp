@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include <carom/broadphase/overlap.hpp>
 #include <carom/broadphase/placement.hpp>
 #include <carom/io/scene_file.hpp>
 #include <carom/parallel/world.hpp>
 
 #include "commands.hpp"
+#include "options.hpp"
 #include "outputs.hpp"
 #include "picture_layout.hpp"
 
@@ -72,8 +72,7 @@ int validate(const std::string& path) {
     Scene scene = read_scene(path);
     scene.balls = place_balls(scene);
     scene.fills.clear();
-    if (!scene.allows_overlap) check_overlaps(scene.balls, scene);
-    // Whatever else the engine asks of a scene, it asks when it is built.
+    // Whether balls overlap, and whatever else the engine asks of a scene, it asks when it is built.
     const World world(scene);
 
     const auto static_count = std::count_if(scene.balls.begin(), scene.balls.end(),
@@ -91,8 +90,7 @@ int validate(const std::string& path) {
                      [](const Ball& ball) { return std::hypot(ball.velocity.x(), ball.velocity.y()); })) +
         row("domain", domain_text(scene)) + row("packing", packing_text(scene, scene.balls)) +
         row("gravity", fmt::format("({:.6g}, {:.6g})", scene.gravity.x(), scene.gravity.y())) +
-        row("precision", scene.precision == Precision::kFloat ? "float" : "double") +
-        row("contact time", contact_text(world.contact_time())) +
+        row("precision", name_of(scene.precision)) + row("contact time", contact_text(world.contact_time())) +
         row("until", fmt::format("{:.6g}", scene.until)));
     return kGood;
 }

@@ -2,7 +2,6 @@
 // the time for a simulated second, and how wrong the result is.
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <set>
@@ -12,6 +11,7 @@
 #include <carom/broadphase/overlap.hpp>
 #include <carom/broadphase/placement.hpp>
 
+#include "../gas_scene.hpp"
 #include "peer.hpp"
 
 namespace carom::bench {
@@ -55,18 +55,23 @@ double time_second(Peer& peer) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Elastic discs of radius 0.5 and rms speed 10 in a closed box.
-Scene gas(std::uint64_t count, double packing) {
-    Scene s;
-    const double side = std::sqrt(static_cast<double>(count) * 0.78539816339744831 / packing);
-    s.domain = Domain{{{0, 0}, {side, side}}, {Boundary::kWall, Boundary::kWall}, 1};
+/// The scene with its fill placed.
+Scene placed(Scene s, const Fill& fill) {
     s.until = 1;
-    Fill& fill = s.fills.emplace_back();
-    fill.count = count;
-    fill.temperature = 50;
+    s.fills = {fill};
     s.balls = place_balls(s);
     s.fills.clear();
     return s;
+}
+
+/// Elastic discs of radius 0.5 and rms speed 10 in a closed box.
+Scene gas(std::uint64_t count, double packing) {
+    Scene s;
+    s.domain = square(static_cast<double>(count), packing, Boundary::kWall);
+    Fill fill;
+    fill.count = count;
+    fill.temperature = 50;
+    return placed(s, fill);
 }
 
 void compare_gas(std::uint64_t count, double packing, int seconds) {
@@ -95,25 +100,25 @@ void compare_gas(std::uint64_t count, double packing, int seconds) {
     }
 }
 
+constexpr double kGravity = 9.81;
+constexpr double kAtRest = kGravity * 0.1;  // kinetic energy a ball: of a fall by a tenth of a diameter
+
 /// Balls of restitution 0.5 that fall into a box.
 Scene pour(std::uint64_t count, double contact_time) {
     Scene s;
-    s.gravity = {0, -9.81};
+    s.gravity = {0, -kGravity};
     s.contact_time = contact_time;
     s.domain = Domain{{{0, 0}, {160, 200}}, {Boundary::kWall, Boundary::kWall}, 0.5};
-    s.until = 1;
-    Fill& fill = s.fills.emplace_back();
+    Fill fill;
     fill.count = count;
     fill.restitution = 0.5;
     fill.temperature = 0.01;
     fill.seed = 6;
     fill.region = Box{{4, 20}, {156, 140}};
-    s.balls = place_balls(s);
-    s.fills.clear();
-    return s;
+    return placed(s, fill);
 }
 
-/// At rest: the mean kinetic energy is below that of a fall by a tenth of a diameter.
+/// Until the mean kinetic energy is below kAtRest.
 void compare_pour(std::uint64_t count, double contact_time, int most_seconds) {
     const Scene scene = pour(count, contact_time);
     double carom_time = 0;
@@ -126,12 +131,12 @@ void compare_pour(std::uint64_t count, double contact_time, int most_seconds) {
             time += time_second(*peer);
             ++seconds;
             kinetic = energy_of(peer->balls(), Vec2::Zero()) / static_cast<double>(count);
-        } while (seconds < most_seconds && kinetic > 9.81 * 0.1);
+        } while (seconds < most_seconds && kinetic > kAtRest);
         if (named.name == "Carom") carom_time = time;
         const std::vector<Ball> end = peer->balls();
         std::printf("| pour of %llu | %s | %.3g s for %d s%s | %.3g | %.2g | %.2g %% | %.1e |\n",
                     static_cast<unsigned long long>(count), named.name.c_str(), time, seconds,
-                    kinetic > 9.81 * 0.1 ? ", not at rest" : "", time / carom_time, kinetic,
+                    kinetic > kAtRest ? ", not at rest" : "", time / carom_time, kinetic,
                     100 * share_overlapping(end), max_overlap(end, scene));
         std::fflush(stdout);
     }

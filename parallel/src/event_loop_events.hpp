@@ -345,9 +345,8 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     const double separation = parting_speed(pressure, normal);
     const double factor =
         bodies_.physics.contact_time > 0 && lasting != restitution ? 1 : bodies_.physics.speed_factor;
-    const Vec2 after = bounce<double>(before, normal, lasting, separation / factor, [&](const Vec2& v) {
-        return bodies_.held_velocity(factor == 1 ? v : Vec2(v * factor));
-    });
+    const Vec2 after = bounce<double>(before, normal, lasting, separation / factor,
+                                      [&](const Vec2& v) { return bodies_.held_velocity(v * factor); });
     a.vx = after.x();
     a.vy = after.y();
     remember(i, event.time, event.partner);

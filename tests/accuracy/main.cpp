@@ -22,8 +22,8 @@ namespace carom::accuracy {
 namespace {
 
 constexpr const char* kUsage =
-    "carom_accuracy [--queries N] [--collisions N] [--check-every N] [--length F] [--only TABLE] [--kind "
-    "TEXT]\n"
+    "carom_accuracy [--queries N] [--collisions N] [--check-every N] [--length F]\n"
+    "               [--only TABLE] [--kind TEXT]\n"
     "  --queries N      queries a kind (100000); 10000000 takes about half an hour for a table\n"
     "  --collisions N   collisions of the longest drift (10000000)\n"
     "  --check-every N  one query in N goes to the slow oracles as well (1000)\n"

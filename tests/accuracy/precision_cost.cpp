@@ -101,7 +101,7 @@ std::uint64_t digits_of_pi(Precision precision) {
 }
 
 Rest pile(Precision precision) {
-    RestCase rest = rest_cases(false)[3];
+    RestCase rest = resting_pile();
     rest.scene.precision = precision;
     return measure(rest);
 }

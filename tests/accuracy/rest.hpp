@@ -34,6 +34,8 @@ struct Rest {
 /// More a ball and contact time no scene may have, see docs/accuracy.md.
 inline constexpr double kMostInContactTime = 30;
 
+/// Eight layers that come to rest: the pile that others compare with.
+[[nodiscard]] RestCase resting_pile();
 /// Small ones, and with `all` those whose measurement takes minutes.
 [[nodiscard]] std::vector<RestCase> rest_cases(bool all);
 [[nodiscard]] Rest measure(const RestCase& rest);
