@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -10,156 +10,222 @@
 
 namespace carom {
 
-/// A tree of minima over one key a ball, sixteen children a node.
+/// A calendar: keys of the coming stretch of time, the year, lie in the lists of its days, in no order; only
+/// those of the day at hand are in a heap. A key beyond the year is in no list until its year comes.
 ///
-/// A node holds the key's upper bits with the ball's id below them, so that the root tells both and a change
-/// that is not its node's winner stops at once. Keys that agree in those upper bits are told apart by their
-/// full values, and equal ones by the smaller id, so that the order of events is total.
+/// An entry that has been changed since stays where it is and is dropped when its day comes. A year is as
+/// long as brings about one event for two entries, so that a change costs the same however many there are.
+/// Equal keys share a day, and of equals the smaller id comes first, so that the order of events is total.
 class EventQueue {
  public:
     EventQueue() = default;
     /// `count` entries, all at infinity.
-    explicit EventQueue(std::size_t count) {
-        reset(count);
-        for (std::size_t i = 0; i < count; ++i) put(static_cast<std::uint32_t>(i), keys_[i]);
-        rebuild();
-    }
+    explicit EventQueue(std::size_t count) { reset(count), rebuild(); }
 
-    /// `count` entries, each to be put() before rebuild().
+    /// `count` entries, all at infinity, each to be put() before rebuild().
     void reset(std::size_t count) {
-        count_ = std::max<std::size_t>(count, 1);
-        id_mask_ = std::bit_ceil(count_) - 1;
-        keys_.assign(count_, std::numeric_limits<double>::infinity());
-        levels_.clear();
-        std::size_t size = 0;
-        for (std::size_t nodes = count_; nodes > 1 || size == 0; nodes = (nodes + kWidth - 1) / kWidth) {
-            const std::size_t padded = (nodes + kWidth - 1) / kWidth * kWidth;
-            levels_.push_back(size);
-            size += padded;
-        }
-        nodes_.assign(size, kEmpty);
+        slots_.assign(std::max<std::size_t>(count, 1), Slot{});
+        year_length_ = 0;
     }
 
-    /// Changes one key of many; call rebuild() before the next first(). Keys are >= 0, infinity included.
-    void put(std::uint32_t id, double key) {
-        keys_[id] = key;
-        nodes_[id] = packed(id, key);
-    }
+    /// Changes one key of many; call rebuild() before the next front(). Keys are no NaN.
+    void put(std::uint32_t id, double key) { slots_[id] = {key, slots_[id].turn + 1}; }
     void rebuild() {
-        for (std::size_t level = 1; level < levels_.size(); ++level)
-            for (std::size_t child = levels_[level - 1]; child < levels_[level]; child += kWidth)
-                nodes_[levels_[level] + (child - levels_[level - 1]) / kWidth] = least_of(child);
-        root_ = least_of(levels_.back());
+        year_length_ = 0;
+        start_year();
     }
 
     void set(std::uint32_t id, double key) {
-        put(id, key);
-        const std::uint64_t changed = nodes_[id];
-        std::size_t place = id;
-        for (std::size_t level = 1; level <= levels_.size(); ++level) {
-            place /= kWidth;
-            std::uint64_t& node = level < levels_.size() ? nodes_[levels_[level] + place] : root_;
-            if (changed < node)
-                node = changed;
-            else if ((node & id_mask_) == id)
-                node = least_of(levels_[level - 1] + place * kWidth);
-            else
-                return;
-        }
+        Slot& slot = slots_[id];
+        slot.key = key;
+        ++slot.turn;
+        if (key < year_end_) enter(id, slot);
     }
 
-    [[nodiscard]] double key(std::uint32_t id) const { return keys_[id]; }
+    [[nodiscard]] double key(std::uint32_t id) const { return slots_[id].key; }
     /// The least key; infinity when nothing is to come.
-    [[nodiscard]] double first_key() const { return keys_[first()]; }
+    [[nodiscard]] double first_key() {
+        find_first();
+        return due_.empty() ? std::numeric_limits<double>::infinity() : due_.front().key;
+    }
 
-    /// The smallest id with the least key.
-    [[nodiscard]] std::uint32_t first() const {
+    /// The smallest id with the least key; any where nothing is to come.
+    [[nodiscard]] std::uint32_t first() {
         return first([](std::uint32_t id) { return id; });
     }
     /// The id with the least key; of equals the one whose rank(id) is lowest.
     template <class Rank>
-    [[nodiscard]] std::uint32_t first(Rank&& rank) const {
-        const std::uint32_t id = front();
-        return is_shared(id) ? first_of_close(id, rank) : id;
+    [[nodiscard]] std::uint32_t first(Rank&& rank) {
+        bool may_be_tied = false;
+        std::uint32_t best = front(may_be_tied);
+        if (may_be_tied) {
+            for_each_first([&](std::uint32_t id) {
+                if (rank(id) < rank(best)) best = id;
+            });
+        }
+        return best;
     }
     /// An id with the least key. `may_be_tied` is set where more ids than one may have it, never left unset
     /// where they do.
-    [[nodiscard]] std::uint32_t front(bool& may_be_tied) const {
-        const std::uint32_t id = front();
-        may_be_tied = is_shared(id);
-        return may_be_tied ? first_of_close(id, [](std::uint32_t k) { return k; }) : id;
+    [[nodiscard]] std::uint32_t front(bool& may_be_tied) {
+        find_first();
+        if (due_.empty()) return 0;
+        const Due& first = due_.front();
+        may_be_tied =
+            (due_.size() > 1 && due_[1].key == first.key) || (due_.size() > 2 && due_[2].key == first.key);
+        return first.id;
     }
 
     /// Calls f(id) for every id whose key equals the least one. Costs their number.
     template <class F>
-    void for_each_first(F&& f) const {
-        const double least = first_key();
-        for_each_close([&](std::uint32_t id) {
-            if (keys_[id] == least) f(id);
-        });
+    void for_each_first(F&& f) {
+        find_first();
+        visit_equal(0, f);
     }
 
  private:
-    static constexpr std::size_t kWidth = 16;
-    static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
-
-    [[nodiscard]] std::uint64_t packed(std::uint32_t id, double key) const {
-        return (std::bit_cast<std::uint64_t>(key) & ~id_mask_) | id;
-    }
-    [[nodiscard]] std::uint64_t least_of(std::size_t child) const {
-        const std::uint64_t* c = &nodes_[child];
-        std::uint64_t least[kWidth / 2];
-        for (std::size_t k = 0; k < kWidth / 2; ++k) least[k] = std::min(c[k], c[k + kWidth / 2]);
-        for (std::size_t k = 0; k < kWidth / 4; ++k) least[k] = std::min(least[k], least[k + kWidth / 4]);
-        return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
-    }
-    [[nodiscard]] std::uint32_t front() const { return static_cast<std::uint32_t>(root_ & id_mask_); }
-    template <class Rank>
-    [[nodiscard]] std::uint32_t first_of_close(std::uint32_t id, Rank&& rank) const {
-        std::uint32_t best = id;
-        for_each_close([&](std::uint32_t other) {
-            if (keys_[other] < keys_[best] || (keys_[other] == keys_[best] && rank(other) < rank(best)))
-                best = other;
-        });
-        return best;
-    }
-    /// Whether another id agrees with the root's in the upper bits: it is a winner beside that one's path.
-    [[nodiscard]] bool is_shared(std::uint32_t id) const {
-        const std::uint64_t bits = root_ & ~id_mask_;
-        std::size_t place = id;
-        for (const std::size_t level : levels_) {
-            const std::uint64_t* group = &nodes_[level + place / kWidth * kWidth];
-            unsigned equal = 0;
-            for (std::size_t k = 0; k < kWidth; ++k) equal += (group[k] & ~id_mask_) == bits ? 1U : 0U;
-            if (equal > 1) return true;
-            place /= kWidth;
+    struct Slot {
+        double key = std::numeric_limits<double>::infinity();
+        std::uint32_t turn = 0;  // counts its changes: what was entered before another one is stale
+    };
+    struct Entry {
+        std::uint32_t id, turn;
+        std::int32_t next;
+    };
+    struct Due {
+        double key;
+        std::uint32_t id, turn;
+        friend bool operator<(const Due& a, const Due& b) {  // the heap's first is the least
+            return a.key > b.key || (a.key == b.key && a.id > b.id);
         }
-        return false;
+    };
+    static constexpr std::int32_t kNone = -1;
+    static constexpr std::size_t kMostStale = 4;  // entries an id, before the year is begun anew
+
+    [[nodiscard]] bool is_stale(std::uint32_t id, std::uint32_t turn) const {
+        return slots_[id].turn != turn;
     }
-    /// Calls f for every id that agrees with the root in the upper bits.
-    template <class F>
-    void for_each_close(F&& f) const {
-        visit_close(levels_.size(), 0, f);
-    }
-    template <class F>
-    void visit_close(std::size_t level, std::size_t place, F& f) const {
-        const std::size_t first = levels_[level - 1] + place * kWidth;
-        for (std::size_t k = 0; k < kWidth; ++k) {
-            if ((nodes_[first + k] & ~id_mask_) != (root_ & ~id_mask_)) continue;
-            const std::size_t child = place * kWidth + k;
-            if (level > 1)
-                visit_close(level - 1, child, f);
-            else if (child < count_)
-                f(static_cast<std::uint32_t>(child));
+
+    void enter(std::uint32_t id, const Slot& slot) {
+        const double day = (slot.key - year_start_) * days_per_time_;
+        if (!(day >= next_day_)) {
+            due_.push_back({slot.key, id, slot.turn});
+            std::push_heap(due_.begin(), due_.end());
+            ++events_;
+            return;
+        }
+        std::int32_t& head = days_[static_cast<std::size_t>(std::min(day, last_day_))];
+        if (free_ == kNone) {
+            entries_.push_back({id, slot.turn, head});
+            head = static_cast<std::int32_t>(entries_.size() - 1);
+        } else {
+            const std::int32_t spare = free_;
+            Entry& entry = entries_[static_cast<std::size_t>(spare)];
+            free_ = entry.next;
+            entry = {id, slot.turn, head};
+            head = spare;
         }
     }
 
-    std::size_t count_ = 0;
-    std::uint64_t id_mask_ = 0;
-    std::uint64_t root_ = kEmpty;
-    std::vector<std::size_t> levels_;  // where each level starts in nodes_, the leaves first
-    std::vector<std::uint64_t> nodes_;
-    std::vector<double> keys_;
+    /// Brings the least entry to the front of the day at hand.
+    void find_first() {
+        if (std::max(entries_.size(), due_.size()) > kMostStale * slots_.size() + 64) start_year();
+        for (;;) {
+            while (!due_.empty() && is_stale(due_.front().id, due_.front().turn)) {
+                std::pop_heap(due_.begin(), due_.end());
+                due_.pop_back();
+            }
+            if (!due_.empty() || !start_day()) return;
+        }
+    }
+
+    /// False when nothing is to come.
+    bool start_day() {
+        while (day_ < days_.size() && days_[day_] == kNone) ++day_;
+        if (day_ == days_.size()) return start_year() && start_day();
+        std::int32_t& head = days_[day_++];
+        next_day_ = static_cast<double>(day_);
+        while (head != kNone) {
+            Entry& entry = entries_[static_cast<std::size_t>(head)];
+            if (!is_stale(entry.id, entry.turn)) due_.push_back({slots_[entry.id].key, entry.id, entry.turn});
+            const std::int32_t next = entry.next;
+            entry.next = free_;
+            free_ = head;
+            head = next;
+        }
+        events_ += due_.size();
+        if (due_.size() > 1) std::make_heap(due_.begin(), due_.end());
+        return true;
+    }
+
+    /// Enters what comes next, from the least key on. False when nothing is to come.
+    bool start_year() {
+        entries_.clear();
+        due_.clear();
+        free_ = kNone;
+        days_.assign(std::max<std::size_t>(slots_.size() / 2, 1), kNone);
+        double least = std::numeric_limits<double>::infinity();
+        for (const Slot& slot : slots_) least = std::min(least, slot.key);
+        if (least == std::numeric_limits<double>::infinity()) {
+            year_end_ = -least;
+            day_ = days_.size();
+            return false;
+        }
+        year_start_ = least;
+        year_length_ = next_length(least);
+        events_ = 0;
+        // Even where the length is less than an ulp of the start, the first entry is in the year.
+        year_end_ =
+            std::max(least + year_length_, std::nextafter(least, std::numeric_limits<double>::infinity()));
+        days_per_time_ = static_cast<double>(days_.size()) / (year_end_ - year_start_);
+        if (!std::isfinite(days_per_time_)) days_per_time_ = 0;
+        last_day_ = static_cast<double>(days_.size() - 1);
+        next_day_ = 0;
+        day_ = 0;
+        for (std::size_t id = 0; id < slots_.size(); ++id)
+            if (slots_[id].key < year_end_) enter(static_cast<std::uint32_t>(id), slots_[id]);
+        return true;
+    }
+
+    /// How long a year from `start` on is: by the last one's events, or by a sample of the keys.
+    [[nodiscard]] double next_length(double start) const {
+        const double wanted = static_cast<double>(days_.size());
+        if (year_length_ > 0) {
+            const double change = wanted / std::max(1.0, static_cast<double>(events_));
+            return year_length_ * std::clamp(change, 0.25, 4.0);
+        }
+        constexpr std::size_t kSample = 64;
+        double sample[kSample];
+        std::size_t taken = 0;
+        const std::size_t stride = std::max<std::size_t>(1, slots_.size() / kSample);
+        for (std::size_t id = 0; id < slots_.size() && taken < kSample; id += stride)
+            if (slots_[id].key < std::numeric_limits<double>::infinity()) sample[taken++] = slots_[id].key;
+        if (taken == 0) return 0;
+        std::nth_element(sample, sample + taken / 2, sample + taken);
+        return sample[taken / 2] - start;
+    }
+
+    template <class F>
+    void visit_equal(std::size_t place, F& f) {
+        if (place >= due_.size() || due_[place].key != due_.front().key) return;
+        if (!is_stale(due_[place].id, due_[place].turn)) f(due_[place].id);
+        visit_equal(2 * place + 1, f);
+        visit_equal(2 * place + 2, f);
+    }
+
+    std::vector<Slot> slots_;
+    std::vector<std::int32_t> days_;  // the first entry of each
+    std::vector<Entry> entries_;
+    std::int32_t free_ = kNone;
+    std::vector<Due> due_;  // a heap: the day at hand
+    std::size_t day_ = 0;   // the first that has not come
+    double next_day_ = 0;   // the same
+    double last_day_ = 0;
+    std::size_t events_ = 0;  // entered in days of this year that have come
+    double year_start_ = 0;
+    double year_end_ = 0;
+    double year_length_ = 0;
+    double days_per_time_ = 0;
 };
 
 }  // namespace carom
