@@ -62,32 +62,17 @@ Vec2 Bodies::rounded_position(const Vec2& inside, Periods& away) const {
             rounded_to_float(grid.y.wrapped(rounded_to_float(inside.y()), away.y))};
 }
 
-/// Margins within which bound_times() and the exact prediction agree.
-///
-/// Both round coordinates and flights of up to `farthest`, a handful of times each: 16 roundings bound the
-/// difference d of the centres' offsets r. The squared gap then differs by at most 2 |r| d <= (d / s) (r^2 +
-/// s^2) for any radii's sum s, the discriminant by 2 |r x v| |v| d <= (d / s) v^2 (r^2 + s^2) and r . v by
-/// d |v|; hence the margin 4 d / s for the smallest s, on top of the 2^-38 that leave the formulas' own
-/// roundings far behind. Under gravity the velocities are rounded as well, by 2^-49 of themselves: against
-/// 2^-38 that is a share of 2^-11 of the speed, squared kDoubtfulShare (and a factor 4).
 void Bodies::choose_margins() {
-    double smallest = std::numeric_limits<double>::infinity();
+    smallest_radius = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < count; ++i)
-        if (!fixes(i)) smallest = std::min(smallest, radius.of(i));
-    const Box& box = physics.domain.box;
-    farthest = std::max(box.min.cwiseAbs().sum(), box.max.cwiseAbs().sum()) +
-               8 * (grid.x.length() + grid.y.length());
-    const double rounding = 16 * std::numeric_limits<double>::epsilon() * 4 * farthest;
-    margin = 0x1p-38 + 4 * rounding / (2 * smallest);
+        if (!fixes(i)) smallest_radius = std::min(smallest_radius, radius.of(i));
     time_margin = 0x1p-46 * physics.clock.epoch_length();
     constexpr std::int32_t kFewest =
         6;  // cells; with fewer the nearest image need not be the one in the cell
     const auto images_are_clear = [](const GridAxis& axis) {
         return !axis.periodic() || axis.count() >= kFewest;
     };
-    if (grid.x.periodic()) period.x() = grid.x.length(), turns.x() = 1 / grid.x.length();
-    if (grid.y.periodic()) period.y() = grid.y.length(), turns.y() = 1 / grid.y.length();
-    filters = margin < 0x1p-20 && images_are_clear(grid.x) && images_are_clear(grid.y);
+    has_clear_images = images_are_clear(grid.x) && images_are_clear(grid.y);
 }
 
 }  // namespace carom

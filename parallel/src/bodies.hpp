@@ -48,14 +48,9 @@ struct Bodies {
     std::vector<std::uint32_t> large;  ///< ids of moving balls wider than a cell, few
     double largest_listed_radius = 0;  ///< of all other moving balls
 
-    /// Margins of EventLoopOf::bound_times(), see choose_margins().
-    bool filters = false;
-    double margin = 0;           ///< relative, of squared lengths
-    double farthest = 0;         ///< beyond such coordinates and flights the margin does not hold
-    double time_margin = 0;      ///< of times since the start of the epoch
-    Vec2 period = Vec2::Zero();  ///< 0 where the axis has none
-    Vec2 turns = Vec2::Zero();   ///< 1 / period
-    static constexpr double kDoubtfulShare = 0x1p-20;
+    double smallest_radius = 1;     ///< of the moving balls
+    double time_margin = 0;         ///< of times since the start of the epoch
+    bool has_clear_images = false;  ///< whether the image in the next cell is the nearest one
 
     [[nodiscard]] bool fixes(std::uint32_t id) const { return !is_static.empty() && is_static[id] != 0; }
     [[nodiscard]] Vec2 own_acceleration_of(std::uint32_t id) const {

@@ -16,6 +16,12 @@ EventLoop::EventLoop(const Bodies& bodies) : bodies_(bodies), clock_(bodies.phys
 void EventLoop::clear(const Region& region, const Time& now) {
     region_ = region;
     cells_.reset(static_cast<std::size_t>(region.size()));
+    sights_.clear(bodies_, region);
+    is_inside_.assign(static_cast<std::size_t>(region.size()), 0);
+    const std::int32_t row = region.x.size();
+    for (std::int32_t y = 1; y < region.y.size() - 1; ++y)
+        std::fill(is_inside_.begin() + y * row + 1,
+                  is_inside_.begin() + std::max(y * row + 1, (y + 1) * row - 1), 1);
     epoch_ = now.epoch;
     now_ = now.offset;
     simultaneous_ = failed_ = false;
@@ -53,6 +59,7 @@ void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_ow
     local.owned = is_owned ? 1 : 0;
     local.frame = region_.frame_of(r.anchor.cell);
     local.end = clock_.since_epoch(end, epoch_);
+    sights_.add(bodies_.radius.of(record.id));
     if (!bodies_.radius.is_one()) radius_.push_back(bodies_.radius.of(record.id));
     if (bodies_.accelerates_each()) acceleration_.push_back(extra->acceleration);
     if (bodies_.physics.contact_time > 0) last_collision_.push_back(extra->last_collision);
@@ -63,7 +70,8 @@ void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_ow
         cells_.insert(r.anchor.place, i);
 }
 
-void EventLoop::start() {
+/// Enters all balls into the queue.
+void EventLoop::begin() {
     queue_.reset(size());
     for (std::uint32_t i = 0; i < size(); ++i) {
         locals_[i].asleep = 0;
@@ -95,6 +103,12 @@ void EventLoop::touch(const CellCoordinates& cell) {
                 touched[static_cast<std::size_t>(mark)] = 1;
         }
     }
+}
+
+template <Acceleration A>
+void EventLoopOf<A>::start() {
+    sight_all();
+    begin();
 }
 
 template <Acceleration A>

@@ -34,6 +34,7 @@
 #include "bodies.hpp"
 #include "executor.hpp"
 #include "region.hpp"
+#include "sights.hpp"
 
 namespace carom {
 
@@ -76,7 +77,7 @@ class EventLoop {
     /// simulated until `end`.
     void add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end = kNever);
     /// Takes the balls' next events as they are.
-    void start();
+    virtual void start() = 0;
     /// Predicts all of them anew.
     virtual void predict_all(const Executor* executor) = 0;
 
@@ -131,6 +132,7 @@ class EventLoop {
     [[nodiscard]] bool is_owned(std::uint32_t i) const { return locals_[i].owned != 0; }
 
  protected:
+    void begin();
     void touch(const CellCoordinates& cell);
     [[nodiscard]] double radius_of(std::uint32_t i) const {
         return bodies_.radius.is_one() ? bodies_.radius.of(0) : radius_[i];
@@ -154,6 +156,9 @@ class EventLoop {
     Region region_;
     CellLists cells_;
     EventQueue queue_;
+    Sights sights_;
+    bool filters_ = false;                 // whether sights are used
+    std::vector<std::uint8_t> is_inside_;  // one a place: whether the cells beside it lie beside it there too
 
     // One a ball, in the order of add(): what only this loop needs of it.
     struct Local {

@@ -36,6 +36,7 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
         if (!(key < end || (inclusive && key == end))) return;
         if (key > now_) {
             now_ = key;
+            if (filters_ && sights_.are_worn(now_)) sight_all();
             events_at_once_ = 0;
             simultaneous_ = false;
         } else if (++events_at_once_ > most_events_at_once()) {
@@ -113,6 +114,7 @@ void EventLoopOf<A>::start_next_epoch(std::int64_t epoch) {
         queue_.put(i, key_of(i));
     }
     queue_.rebuild();
+    sight_all();
 }
 
 template <Acceleration A>
@@ -124,18 +126,7 @@ void EventLoopOf<A>::cross(std::uint32_t i) {
         throw std::runtime_error("balls[" + std::to_string(records_[i].id) +
                                  "]: flies more than a thousand million cells without an event");
     NextEvent best = records_[i].next;
-    // The row of cells that comes into view.
-    const std::int32_t reach_x = cell_reach(bodies_.grid.x, i);
-    const std::int32_t reach_y = cell_reach(bodies_.grid.y, i);
-    if (reaches_all(reach_x, reach_y)) {
-        scan_listed(i, best);
-    } else if (crossing.dx != 0) {
-        const std::int32_t x = a.cell.x + crossing.dx * reach_x;
-        scan_cells(i, {x, a.cell.y - reach_y}, {x, a.cell.y + reach_y}, best);
-    } else {
-        const std::int32_t y = a.cell.y + crossing.dy * reach_y;
-        scan_cells(i, {a.cell.x - reach_x, y}, {a.cell.x + reach_x, y}, best);
-    }
+    scan_beside(i, {crossing.dx, crossing.dy}, best);  // what comes into view
     scan_large(i, best);
     scan_obstacles(i, best);
     predict_crossing(i);
@@ -214,6 +205,7 @@ void EventLoopOf<A>::settle(std::uint32_t i) {
     Anchor& a = records_[i].anchor;
     ++a.stamp;
     relist(i, bodies_.grid.coordinates({a.x, a.y}));
+    if (filters_) sight(i);
 }
 
 /// Puts a ball into another cell's list; a large ball is in none.

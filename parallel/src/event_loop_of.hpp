@@ -23,6 +23,7 @@ class EventLoopOf final : public EventLoop {
  public:
     using EventLoop::EventLoop;
 
+    void start() override;
     void predict_all(const Executor* executor) override;
     void advance_to(const Time& end, bool inclusive) override;
     void renew_field(const Time& t) override;
@@ -93,38 +94,22 @@ class EventLoopOf final : public EventLoop {
         return {-floor_divided(reach - offset), floor_divided(offset + reach)};
     }
     void consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) const;
-    void consider_listed(std::uint32_t i, std::uint32_t j, CellCoordinates cell, NextEvent& best) const;
+    void consider_in_cell(std::uint32_t i, std::uint32_t j, CellCoordinates cell, NextEvent& best) const;
+    void consider_beside(std::uint32_t i, std::uint32_t j, CellCoordinates reach, NextEvent& best) const;
     void consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best) const;
     void scan_large(std::uint32_t i, NextEvent& best) const;
     void scan_listed(std::uint32_t i, NextEvent& best) const;
-    void scan_cells(std::uint32_t i, CellCoordinates first, CellCoordinates last, NextEvent& best) const;
-    static constexpr std::size_t kMostCandidates = 64;  // that are looked at together
+    void scan_beside(std::uint32_t i, CellCoordinates side, NextEvent& best) const;
+    static constexpr std::size_t kMostCandidates = 9 * CellLists::kBlockSize;  // that are looked at together
     struct Candidates {
         std::size_t count = 0;
-        std::size_t cell_count = 0;
-        alignas(64) std::array<double, kMostCandidates> earliest;
-        std::array<std::uint32_t, kMostCandidates + 8> ids;
-        std::array<std::uint8_t, kMostCandidates + 8> from;  // which of the cells
-        std::array<CellCoordinates, 9> cells;
-        CellCoordinates first;  // where `width` is not 0, the cells are numbered from here row by row
-        std::int32_t width = 0;
+        CellCoordinates reach{1, 1};                              // how many cells away they may be
+        std::array<std::uint32_t, kMostCandidates + kLanes> ids;  // NOLINT(*-member-init): of large arrays
     };
-    struct Present {
-        double x, y, vx, vy;
-        double flight;  ///< how far it went since its anchor by its velocity then, along both axes together
-        double rounded_speed_squared;  ///< of the speeds that were rounded on the way here
-    };
-    [[nodiscard]] Present present(std::uint32_t i) const;
-    [[nodiscard]] double bound_times(std::uint32_t i, const Present& a, Candidates& found) const;
-    void consider_all(std::uint32_t i, const Present& place, Candidates& found, NextEvent& best) const;
-    bool gather_block(std::uint32_t i, CellCoordinates first, CellCoordinates last, Candidates& found) const;
-    /// The place of a block's first cell where its rows lie in the region as they do in the plane; else -1.
-    [[nodiscard]] std::int32_t place_of_block(std::uint32_t i, CellCoordinates first,
-                                              CellCoordinates last) const {
-        const std::int32_t low = place_of(i, first);
-        const std::int32_t extent = (last.y - first.y) * region_.x.size() + (last.x - first.x);
-        return low >= 0 && place_of(i, last) - low == extent ? low : -1;
-    }
+    void consider_all(std::uint32_t i, Candidates& found, NextEvent& best) const;
+    bool gather_beside(std::int32_t low, int width, int height, Candidates& found) const;
+    void sight(std::uint32_t i);
+    void sight_all();
     template <class F>
     void for_each_place(std::uint32_t i, CellCoordinates first, CellCoordinates last, F&& f) const;
     void scan_obstacles(std::uint32_t i, NextEvent& best) const;

@@ -127,8 +127,8 @@ void EventLoopOf<A>::consider(std::uint32_t i, std::uint32_t j, Image image, Nex
 
 /// The same for a ball j from the list of the storage cell of `cell`.
 template <Acceleration A>
-void EventLoopOf<A>::consider_listed(std::uint32_t i, std::uint32_t j, CellCoordinates cell,
-                                     NextEvent& best) const {
+void EventLoopOf<A>::consider_in_cell(std::uint32_t i, std::uint32_t j, CellCoordinates cell,
+                                      NextEvent& best) const {
     const Anchor& b = records_[j].anchor;
     Image image;
     if (b.cell != cell) {  // the same place, some turns of the fold or periods between the frames away
@@ -139,6 +139,26 @@ void EventLoopOf<A>::consider_listed(std::uint32_t i, std::uint32_t j, CellCoord
         image = {dx / grid.x.count(), dy / grid.y.count()};
     }
     consider(i, j, image, best);
+}
+
+/// The same for a ball j whose list was found at most `reach` cells away, less than half the box.
+template <Acceleration A>
+void EventLoopOf<A>::consider_beside(std::uint32_t i, std::uint32_t j, CellCoordinates reach,
+                                     NextEvent& best) const {
+    const CellCoordinates& a = records_[i].anchor.cell;
+    const CellCoordinates& b = records_[j].anchor.cell;
+    const auto is_beside = [](const GridAxis& axis, std::int32_t cells, std::int32_t most,
+                              std::int32_t& periods) {
+        if (std::abs(cells) <= most) return true;
+        if (!axis.periodic()) return false;
+        const std::int32_t half = axis.count() / 2;
+        periods = (cells + (cells < 0 ? -half : half)) / axis.count();
+        return true;
+    };
+    Image image;
+    if (is_beside(bodies_.grid.x, a.x - b.x, reach.x, image.x) &&
+        is_beside(bodies_.grid.y, a.y - b.y, reach.y, image.y))
+        consider(i, j, image, best);
 }
 
 /// Ball j in all its images that lie so near that a contact could come before either centre crosses a border.
@@ -201,13 +221,7 @@ void EventLoopOf<A>::scan_obstacles(std::uint32_t i, NextEvent& best) const {
 template <Acceleration A>
 NextEvent EventLoopOf<A>::search(std::uint32_t i) const {
     NextEvent best;
-    const CellCoordinates c = records_[i].anchor.cell;
-    const std::int32_t reach_x = cell_reach(bodies_.grid.x, i);
-    const std::int32_t reach_y = cell_reach(bodies_.grid.y, i);
-    if (reaches_all(reach_x, reach_y))
-        scan_listed(i, best);
-    else
-        scan_cells(i, {c.x - reach_x, c.y - reach_y}, {c.x + reach_x, c.y + reach_y}, best);
+    scan_beside(i, {0, 0}, best);
     scan_large(i, best);
     scan_obstacles(i, best);
     return best;
@@ -280,7 +294,7 @@ void EventLoopOf<A>::tell_lower(std::uint32_t i) {
         cells_.for_each(place, [&](std::uint32_t j) {
             if (records_[j].id >= records_[i].id) return;
             NextEvent event;
-            consider_listed(i, j, cell, event);
+            consider_in_cell(i, j, cell, event);
             tell_if_now(j, event);
         });
     });
@@ -325,6 +339,7 @@ void EventLoopOf<A>::predict_crossing(std::uint32_t i) {
 /// nobody.
 template <Acceleration A>
 void EventLoopOf<A>::predict_all(const Executor* executor) {
+    sight_all();
     const auto predict = [this](std::size_t first, std::size_t last) {
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
             records_[i].next = search(i);
@@ -335,7 +350,7 @@ void EventLoopOf<A>::predict_all(const Executor* executor) {
         executor->for_ranges(records_.size(), 512, predict);
     else
         predict(0, records_.size());
-    start();
+    begin();
 }
 
 }  // namespace carom

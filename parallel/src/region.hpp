@@ -48,6 +48,10 @@ class RegionAxis {
 
     [[nodiscard]] std::int32_t size() const { return size_; }
     [[nodiscard]] const Span& own() const { return own_; }
+    /// Whether it is all of a periodic axis, so that its ends meet.
+    [[nodiscard]] bool is_whole_period() const { return periodic_ && !is_window_; }
+    /// The middle of what is stored, in the region's frame.
+    [[nodiscard]] double middle() const { return (is_window_ ? reach_.first : base_) + size_ / 2.0; }
 
     /// What to add to a ball's cell coordinate `k` to have it in the region's frame.
     [[nodiscard]] std::int32_t frame_of(std::int32_t k) const {
