@@ -53,6 +53,8 @@ Bodies::Bodies(const Physics& scene_physics, std::span<const Ball> balls, std::s
     }
     obstacles = ObstacleMap(grid, balls, walls, largest_listed_radius);
     if (!large.empty()) obstacles_of_large = ObstacleMap(grid, balls, walls, largest_radius);
+    has_obstacles = !obstacles.empty() || !obstacles_of_large.empty() ||
+                    std::ranges::count(physics.domain.boundary, Boundary::kWall) > 0;
     choose_margins();
 }
 

@@ -50,6 +50,7 @@ struct Bodies {
 
     double smallest_radius = 1;     ///< of the moving balls
     double time_margin = 0;         ///< of times since the start of the epoch
+    bool has_obstacles = false;     ///< static balls, walls or walled sides
     bool has_clear_images = false;  ///< whether the image in the next cell is the nearest one
 
     [[nodiscard]] bool fixes(std::uint32_t id) const { return !is_static.empty() && is_static[id] != 0; }

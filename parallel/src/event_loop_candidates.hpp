@@ -74,24 +74,21 @@ void EventLoopOf<A>::for_each_place(std::uint32_t i, CellCoordinates first, Cell
 /// Gathers the balls of some of the cells around ball i's without a branch; false where one of them holds
 /// more than one block of ids. Precondition: the ball is deep inside the region.
 template <Acceleration A>
-bool EventLoopOf<A>::gather_beside(std::int32_t low, int width, int height, Candidates& found) const {
-    const std::int32_t row = region_.x.size();
-    std::size_t count = 0;
-    bool overflows = false;
-    const auto take = [&](std::int32_t at) {
-        const CellLists::Block& block = cells_.first_block(at);
-        std::memcpy(&found.ids[count], block.ids.data(), sizeof(block.ids));
-        count += static_cast<std::size_t>(block.count);
-        overflows = overflows || block.next >= 0;
-    };
-    for (int y = 0; y < height; ++y, low += row) {
-        take(low);
-        if (width == 1) continue;
-        take(low + 1);
-        take(low + 2);
+template <int kWidth, int kHeight>
+bool EventLoopOf<A>::gather_beside(std::int32_t low, Candidates& found) const {
+    const CellLists::Block* row = &cells_.first_block(low);
+    std::uint32_t* next = found.ids.data();
+    std::int32_t single = -1;  // negative as long as no cell has a further block
+    for (int y = 0; y < kHeight; ++y, row += region_.x.size()) {
+        for (int x = 0; x < kWidth; ++x) {
+            const CellLists::Block& block = row[x];
+            std::memcpy(next, block.ids.data(), sizeof(block.ids));
+            next += block.count;
+            single &= block.next;
+        }
     }
-    found.count = count;
-    return !overflows;
+    found.count = static_cast<std::size_t>(next - found.ids.data());
+    return single < 0;
 }
 
 /// Ball i against all that are listed around it: in the row of cells on one side, or everywhere where the
@@ -101,11 +98,11 @@ void EventLoopOf<A>::scan_beside(std::uint32_t i, CellCoordinates side, NextEven
     const Anchor& a = records_[i].anchor;
     Candidates found;
     if (filters_ && is_inside_[static_cast<std::size_t>(a.place)] && !is_large(i)) {
-        const int width = side.x == 0 ? 3 : 1;
-        const int height = side.y == 0 ? 3 : 1;
-        const std::int32_t low =
-            a.place + (side.x == 0 ? -1 : side.x) + (side.y == 0 ? -1 : side.y) * region_.x.size();
-        if (gather_beside(low, width, height, found)) return consider_all(i, found, best);
+        const std::int32_t row = region_.x.size();
+        const bool is_whole = side.x != 0   ? gather_beside<1, 3>(a.place + side.x - row, found)
+                              : side.y != 0 ? gather_beside<3, 1>(a.place + side.y * row - 1, found)
+                                            : gather_beside<3, 3>(a.place - row - 1, found);
+        if (is_whole) return consider_all(i, found, best);
     }
     const Grid& grid = bodies_.grid;
     found.reach = {cell_reach(grid.x, i), cell_reach(grid.y, i)};

@@ -107,12 +107,16 @@ class EventLoopOf final : public EventLoop {
         std::array<std::uint32_t, kMostCandidates + kLanes> ids;  // NOLINT(*-member-init): of large arrays
     };
     void consider_all(std::uint32_t i, Candidates& found, NextEvent& best) const;
-    bool gather_beside(std::int32_t low, int width, int height, Candidates& found) const;
+    template <int kWidth, int kHeight>
+    bool gather_beside(std::int32_t low, Candidates& found) const;
     void sight(std::uint32_t i);
     void sight_all();
     template <class F>
     void for_each_place(std::uint32_t i, CellCoordinates first, CellCoordinates last, F&& f) const;
-    void scan_obstacles(std::uint32_t i, NextEvent& best) const;
+    void scan_obstacles(std::uint32_t i, NextEvent& best) const {
+        if (bodies_.has_obstacles) scan_each_obstacle(i, best);
+    }
+    void scan_each_obstacle(std::uint32_t i, NextEvent& best) const;
     [[nodiscard]] NextEvent search(std::uint32_t i) const;
     void expect(std::uint32_t i, const NextEvent& event);
     void wake_partner(std::uint32_t i);

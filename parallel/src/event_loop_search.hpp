@@ -14,19 +14,20 @@ namespace carom {
 
 template <Acceleration A>
 Time EventLoopOf<A>::predict_pair(std::uint32_t i, std::uint32_t j, Image image) const {
-    if (records_[j].id < records_[i].id) {  // one order for a pair, whoever asks
-        std::swap(i, j);
-        image = -image;
-    }
+    // One order for a pair, whoever asks. Without branches: neither order is to be guessed.
+    const bool is_swapped = records_[j].id < records_[i].id;
+    const std::int32_t sign = is_swapped ? -1 : 1;
+    image = {sign * image.x, sign * image.y};
+    const std::uint32_t lower = is_swapped ? j : i;
+    j = is_swapped ? i : j;
+    i = lower;
     const Anchor& a = records_[i].anchor;
     const Anchor& b = records_[j].anchor;
-    double since_a = 0;
-    double since_b = 0;
-    const Time& reference = a.time < b.time ? b.time : a.time;
-    if (a.time < b.time)
-        since_a = clock_.difference(b.time, a.time);
-    else
-        since_b = clock_.difference(a.time, b.time);
+    const bool a_is_earlier = a.time < b.time;
+    const Time& reference = a_is_earlier ? b.time : a.time;
+    const double between = clock_.difference(reference, a_is_earlier ? a.time : b.time);
+    const double since_a = a_is_earlier ? between : 0.0;
+    const double since_b = a_is_earlier ? 0.0 : between;
     const double sum = radius_of(i) + radius_of(j);
     if constexpr (A == Acceleration::kNone) {
         const GridAxis& axis_x = bodies_.grid.x;
@@ -120,9 +121,10 @@ bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint3
 /// Predicts ball i against ball j and keeps the better event.
 template <Acceleration A>
 void EventLoopOf<A>::consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) const {
-    const NextEvent event{
-        predict_pair(i, j, image), records_[j].id, records_[j].anchor.stamp, image.x, image.y, j};
-    if (precedes(event, best, i)) best = event;
+    const Time t = predict_pair(i, j, image);
+    if (best.time < t) return;
+    const NextEvent event{t, records_[j].id, records_[j].anchor.stamp, image.x, image.y, j};
+    if (t < best.time || precedes(event, best, i)) best = event;
 }
 
 /// The same for a ball j from the list of the storage cell of `cell`.
@@ -189,7 +191,7 @@ void EventLoopOf<A>::scan_listed(std::uint32_t i, NextEvent& best) const {
 }
 
 template <Acceleration A>
-void EventLoopOf<A>::scan_obstacles(std::uint32_t i, NextEvent& best) const {
+void EventLoopOf<A>::scan_each_obstacle(std::uint32_t i, NextEvent& best) const {
     const Anchor& a = records_[i].anchor;
     const auto consider = [&](const NextEvent& event) {
         if (precedes(event, best, i)) best = event;
@@ -319,10 +321,17 @@ void EventLoopOf<A>::predict_crossing(std::uint32_t i) {
         if (time < first.time) first = {time, static_cast<std::int8_t>(dx), static_cast<std::int8_t>(dy)};
     };
     if constexpr (A == Acceleration::kNone) {  // only one side of each axis lies ahead
-        const int dx = a.vx > 0 ? 1 : -1;
-        const int dy = a.vy > 0 ? 1 : -1;
-        if (a.vx != 0) consider(std::max((grid.x.border(c.x + (dx > 0)) - a.x) / a.vx, since), dx, 0);
-        if (a.vy != 0) consider(std::max((grid.y.border(c.y + (dy > 0)) - a.y) / a.vy, since), 0, dy);
+        const auto leave = [](double distance, double speed) {
+            return speed != 0 ? distance / speed : std::numeric_limits<double>::infinity();
+        };
+        const bool right = a.vx > 0;
+        const bool up = a.vy > 0;
+        const double x = leave(grid.x.border(c.x + right) - a.x, a.vx);
+        const double y = leave(grid.y.border(c.y + up) - a.y, a.vy);
+        const bool is_x = x <= y;
+        first.time = std::max(is_x ? x : y, since);
+        first.dx = static_cast<std::int8_t>(is_x ? 2 * right - 1 : 0);
+        first.dy = static_cast<std::int8_t>(is_x ? 0 : 2 * up - 1);
     } else {
         consider(time_to_leave(grid.x.border(c.x + 1) - a.x, a.vx, acceleration.x(), since), 1, 0);
         consider(time_to_leave(a.x - grid.x.border(c.x), -a.vx, -acceleration.x(), since), -1, 0);

@@ -12,9 +12,18 @@ namespace carom {
 class OrderedSum {
  public:
     /// `typical` > 0: the size of a term; its power of two counts only.
-    void set_scale(double typical) { exponent_ = 50 - std::ilogb(typical); }
+    void set_scale(double typical) {
+        exponent_ = 50 - std::ilogb(typical);
+        const double scale = std::ldexp(1.0, exponent_);
+        quick_scale_ = std::isnormal(scale) ? scale : std::numeric_limits<double>::infinity();
+    }
 
     OrderedSum& operator+=(double term) {
+        const double quick = term * quick_scale_;
+        if (std::abs(quick) < 0x1p62) {
+            sum_ += static_cast<std::int64_t>(quick);
+            return *this;
+        }
         const double scaled = std::ldexp(term, exponent_);
         if (std::abs(scaled) < 0x1p120)
             sum_ += static_cast<Integer>(scaled);
@@ -31,6 +40,7 @@ class OrderedSum {
     __extension__ using Integer = __int128;
     Integer sum_ = 0;
     int exponent_ = 0;
+    double quick_scale_ = 1;  // 2^exponent where that is a number
     bool is_lost_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -48,10 +49,9 @@ class Sights {
         const auto y = static_cast<float>(place.y() * per_unit_ + (frame.y * cell_y_ - middle_y_));
         const auto vx = static_cast<float>((a.vx + since * acceleration.x()) * per_speed_);
         const auto vy = static_cast<float>((a.vy + since * acceleration.y()) * per_speed_);
-        const bool is_seen =
-            std::abs(x) + std::abs(y) <= farthest_ && std::abs(vx) + std::abs(vy) <= farthest_;
-        too_fast_ += is_seen ? 0 : 1;
-        rows_[i] = {is_seen ? x : std::numeric_limits<float>::quiet_NaN(), y, vx, vy};
+        const FourFloats row = {x, y, vx, vy};
+        std::memcpy(&rows_[i], &row, sizeof(row));  // at once, as it is read
+        if (!(std::abs(x) + std::abs(y) <= farthest_ && std::abs(vx) + std::abs(vy) <= farthest_)) hide(i);
     }
 
     /// For ball i among eight others: times, in spans from `now` on, before which it certainly does not meet
@@ -64,9 +64,14 @@ class Sights {
 
  private:
     struct alignas(16) Row {
-        float x = 0, y = 0, vx = 0, vy = 0;
+        float x, y, vx, vy;
     };
     static constexpr double kFlight = 16;
+
+    void hide(std::uint32_t i) {
+        rows_[i].x = std::numeric_limits<float>::quiet_NaN();
+        ++too_fast_;
+    }
 
     bool are_of_use_ = false;
     bool has_one_radius_ = true;

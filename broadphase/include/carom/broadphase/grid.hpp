@@ -40,7 +40,9 @@ class GridAxis {
 
     /// The cell coordinate of x.
     [[nodiscard]] std::int32_t coordinate(double x) const {
-        const double k = std::floor((x - min_) * inverse_);
+        const double inside = (x - min_) * inverse_;
+        if (inside >= 0 && inside < count_) return static_cast<std::int32_t>(inside);
+        const double k = std::floor(inside);
         if (k >= -count_ && k < 2 * count_) return static_cast<std::int32_t>(k);
         if (periodic_) return static_cast<std::int32_t>(std::clamp(k, -double(kFarthest), double(kFarthest)));
         return k < 0 ? -count_ - outer_cells(-count_ - (x - min_) * inverse_) - 1

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <compare>
 #include <cstdint>
 #include <limits>
 
@@ -14,10 +13,14 @@ struct Time {
     double offset = 0;
 
     friend bool operator==(const Time&, const Time&) = default;
-    friend auto operator<=>(const Time& a, const Time& b) {
-        if (const std::partial_ordering order = a.epoch <=> b.epoch; order != 0) return order;
-        return a.offset <=> b.offset;
+    friend bool operator<(const Time& a, const Time& b) {
+        return a.epoch == b.epoch ? a.offset < b.offset : a.epoch < b.epoch;
     }
+    friend bool operator>(const Time& a, const Time& b) { return b < a; }
+    friend bool operator<=(const Time& a, const Time& b) {
+        return a.epoch == b.epoch ? a.offset <= b.offset : a.epoch < b.epoch;
+    }
+    friend bool operator>=(const Time& a, const Time& b) { return b <= a; }
 };
 
 /// A time that never comes.
