@@ -32,29 +32,35 @@ void EventLoopOf<A>::sight_all() {
     for (std::uint32_t i = 0; i < size(); ++i) sight(i);
 }
 
-/// Ball i against the candidates: exactly where the bounds leave it open who is first.
+/// Bounds on when ball i meets each of the candidates.
 template <Acceleration A>
-void EventLoopOf<A>::consider_all(std::uint32_t i, Candidates& found, NextEvent& best) const {
+void EventLoopOf<A>::look(std::uint32_t i, Candidates& found) const {
+    const Indices self = Indices{} + i;
+    std::memcpy(&found.ids[found.count], &self, sizeof(self));
+    for (std::size_t first = 0; first < found.count; first += kLanes)
+        found.bounds[first / kLanes] = sights_.bounds(i, &found.ids[first], now_);
+}
+
+/// Ball i against the candidates that it has looked at: exactly where the bounds leave it open who is first.
+template <Acceleration A>
+void EventLoopOf<A>::choose(std::uint32_t i, const Candidates& found, NextEvent& best) const {
     const auto latest = [&] {
         return best.time == kNever
                    ? std::numeric_limits<float>::max()
                    : sights_.in_spans(clock_.since_epoch(best.time, epoch_) - now_ + bodies_.time_margin);
     };
-    for (std::size_t k = 0; k < kLanes; ++k) found.ids[found.count + k] = i;
     for (std::size_t first = 0; first < found.count; first += kLanes) {
-        const std::uint32_t* ids = &found.ids[first];
-        const Floats bounds = sights_.bounds(i, ids, now_);
+        const Floats& bounds = found.bounds[first / kLanes];
+        const auto consider_lane = [&](unsigned bits) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+            consider_beside(i, found.ids[first + lane], found.reach, best);
+        };
         unsigned open = bits_of(bounds <= latest());
-        if (!std::has_single_bit(open) && open != 0) {
-            const auto soonest = std::countr_zero(bits_of(bounds <= least_of(bounds)));
-            consider_beside(i, ids[static_cast<std::size_t>(soonest)], found.reach, best);
-            open = bits_of(bounds <= latest()) & ~(1U << soonest);
-        }
-        while (open != 0) {
-            consider_beside(i, ids[static_cast<std::size_t>(std::countr_zero(open))], found.reach, best);
-            open &= open - 1;
-            if (open != 0) open &= bits_of(bounds <= latest());
-        }
+        if (open == 0) continue;
+        const unsigned soonest = bits_of(bounds <= least_of(bounds));
+        consider_lane(soonest);
+        open &= bits_of(bounds <= latest()) & ~(soonest & -soonest);
+        for (; open != 0; open &= open - 1) consider_lane(open);
     }
 }
 
@@ -91,19 +97,25 @@ bool EventLoopOf<A>::gather_beside(std::int32_t low, Candidates& found) const {
     return single < 0;
 }
 
-/// Ball i against all that are listed around it: in the row of cells on one side, or everywhere where the
-/// side is {0, 0}.
+/// Gathers all that are listed around ball i, in the row of cells on one side or everywhere where the side is
+/// {0, 0}, and looks at them; false where this ball or place needs more care.
+template <Acceleration A>
+bool EventLoopOf<A>::look_beside(std::uint32_t i, CellCoordinates side, Candidates& found) const {
+    const std::int32_t place = records_[i].anchor.place;
+    if (!filters_ || !is_inside_[static_cast<std::size_t>(place)] || is_large(i)) return false;
+    const std::int32_t row = region_.x.size();
+    const bool is_whole = side.x != 0   ? gather_beside<1, 3>(place + side.x - row, found)
+                          : side.y != 0 ? gather_beside<3, 1>(place + side.y * row - 1, found)
+                                        : gather_beside<3, 3>(place - row - 1, found);
+    if (is_whole) look(i, found);
+    return is_whole;
+}
+
+/// Ball i against all that are listed around it, anywhere.
 template <Acceleration A>
 void EventLoopOf<A>::scan_beside(std::uint32_t i, CellCoordinates side, NextEvent& best) const {
     const Anchor& a = records_[i].anchor;
     Candidates found;
-    if (filters_ && is_inside_[static_cast<std::size_t>(a.place)] && !is_large(i)) {
-        const std::int32_t row = region_.x.size();
-        const bool is_whole = side.x != 0   ? gather_beside<1, 3>(a.place + side.x - row, found)
-                              : side.y != 0 ? gather_beside<3, 1>(a.place + side.y * row - 1, found)
-                                            : gather_beside<3, 3>(a.place - row - 1, found);
-        if (is_whole) return consider_all(i, found, best);
-    }
     const Grid& grid = bodies_.grid;
     found.reach = {cell_reach(grid.x, i), cell_reach(grid.y, i)};
     if (reaches_all(found.reach.x, found.reach.y)) return scan_listed(i, best);
@@ -124,13 +136,15 @@ void EventLoopOf<A>::scan_beside(std::uint32_t i, CellCoordinates side, NextEven
             if (j == i) return;
             if (!filters) return consider_in_cell(i, j, cell, best);
             if (found.count == kMostCandidates) {
-                consider_all(i, found, best);
+                look(i, found);
+                choose(i, found, best);
                 found.count = 0;
             }
             found.ids[found.count++] = j;
         });
     });
-    if (found.count > 0) consider_all(i, found, best);
+    look(i, found);
+    choose(i, found, best);
 }
 
 }  // namespace carom

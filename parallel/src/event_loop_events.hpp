@@ -126,7 +126,12 @@ void EventLoopOf<A>::cross(std::uint32_t i) {
         throw std::runtime_error("balls[" + std::to_string(records_[i].id) +
                                  "]: flies more than a thousand million cells without an event");
     NextEvent best = records_[i].next;
-    scan_beside(i, {crossing.dx, crossing.dy}, best);  // what comes into view
+    const CellCoordinates side{crossing.dx, crossing.dy};  // from where others come into view
+    Candidates found;
+    if (look_beside(i, side, found))
+        choose(i, found, best);
+    else
+        scan_beside(i, side, best);
     scan_large(i, best);
     scan_obstacles(i, best);
     predict_crossing(i);
@@ -290,10 +295,14 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     if (bodies_.physics.contact_time > 0) last_collision_[i] = last_collision_[j] = t;
     settle(i);
     settle(j);
-    for (const std::uint32_t k : {i, j}) {
-        predict_crossing(k);
-        expect(k, search(k));
-    }
+    predict_crossing(i);
+    predict_crossing(j);
+    // Both look before one chooses: neither waits for the other's arithmetic.
+    Candidates around_i, around_j;
+    const bool has_looked_i = look_beside(i, {0, 0}, around_i);
+    const bool has_looked_j = look_beside(j, {0, 0}, around_j);
+    expect(i, search_among(i, around_i, has_looked_i));
+    expect(j, search_among(j, around_j, has_looked_j));
 }
 
 template <Acceleration A>

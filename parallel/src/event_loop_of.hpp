@@ -103,10 +103,15 @@ class EventLoopOf final : public EventLoop {
     static constexpr std::size_t kMostCandidates = 9 * CellLists::kBlockSize;  // that are looked at together
     struct Candidates {
         std::size_t count = 0;
-        CellCoordinates reach{1, 1};                              // how many cells away they may be
-        std::array<std::uint32_t, kMostCandidates + kLanes> ids;  // NOLINT(*-member-init): of large arrays
+        CellCoordinates reach{1, 1};  // how many cells away they may be
+        // NOLINTBEGIN(*-member-init): not all of it is used
+        std::array<std::uint32_t, kMostCandidates + kLanes> ids;
+        std::array<Floats, (kMostCandidates + kLanes - 1) / kLanes> bounds;  // eight candidates each
+        // NOLINTEND(*-member-init)
     };
-    void consider_all(std::uint32_t i, Candidates& found, NextEvent& best) const;
+    void look(std::uint32_t i, Candidates& found) const;
+    void choose(std::uint32_t i, const Candidates& found, NextEvent& best) const;
+    [[nodiscard]] bool look_beside(std::uint32_t i, CellCoordinates side, Candidates& found) const;
     template <int kWidth, int kHeight>
     bool gather_beside(std::int32_t low, Candidates& found) const;
     void sight(std::uint32_t i);
@@ -117,7 +122,12 @@ class EventLoopOf final : public EventLoop {
         if (bodies_.has_obstacles) scan_each_obstacle(i, best);
     }
     void scan_each_obstacle(std::uint32_t i, NextEvent& best) const;
-    [[nodiscard]] NextEvent search(std::uint32_t i) const;
+    [[nodiscard]] NextEvent search(std::uint32_t i) const {
+        Candidates found;
+        const bool has_looked = look_beside(i, {0, 0}, found);
+        return search_among(i, found, has_looked);
+    }
+    [[nodiscard]] NextEvent search_among(std::uint32_t i, const Candidates& found, bool has_looked) const;
     void expect(std::uint32_t i, const NextEvent& event);
     void wake_partner(std::uint32_t i);
     void lose(std::uint32_t i);

@@ -219,11 +219,14 @@ void EventLoopOf<A>::scan_each_obstacle(std::uint32_t i, NextEvent& best) const 
     }
 }
 
-/// Ball i's next event from all that is around it.
+/// Ball i's next event from all that is around it; what the grid offers is among `found` where it has looked.
 template <Acceleration A>
-NextEvent EventLoopOf<A>::search(std::uint32_t i) const {
+NextEvent EventLoopOf<A>::search_among(std::uint32_t i, const Candidates& found, bool has_looked) const {
     NextEvent best;
-    scan_beside(i, {0, 0}, best);
+    if (has_looked)
+        choose(i, found, best);
+    else
+        scan_beside(i, {0, 0}, best);
     scan_large(i, best);
     scan_obstacles(i, best);
     return best;

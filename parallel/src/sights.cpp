@@ -63,7 +63,10 @@ Floats Sights::bounds(std::uint32_t i, const std::uint32_t* others, double now) 
     const auto t = static_cast<float>((now - time_) * per_span_);
     const Row& own = rows_[i];
     FourFloats rows[kLanes];
-    for (std::size_t k = 0; k < kLanes; ++k) std::memcpy(&rows[k], &rows_[others[k]], sizeof(Row));
+    const std::uint32_t* each = others;
+    __asm__(""
+            : "+r"(each));  // or they would be read as one vector, before what was written in parts is there
+    for (std::size_t k = 0; k < kLanes; ++k) std::memcpy(&rows[k], &rows_[each[k]], sizeof(Row));
     const Columns other = columns_of(rows);
     Floats sum = zero + diameter_;
     if (!has_one_radius_)
