@@ -57,6 +57,7 @@ struct DomainState {
     // After the window: its own balls.
     std::vector<BallRecord> results;
     std::vector<BallExtra> result_extras;
+    std::vector<CellCoordinates> result_cells;  ///< of the results, folded into the box on periodic axes
     std::vector<OverwrittenAnchor> overwritten;
     std::vector<std::uint32_t> last_overwritten;  ///< one a result
     std::vector<CollisionNote> notes;
@@ -77,8 +78,8 @@ struct DomainState {
     /// Forgets what the last window came to.
     void clear_outcome() {
         const auto empty = [](auto&... tables) { (tables.clear(), ...); };
-        empty(results, result_extras, overwritten, last_overwritten, notes, collisions, copies, copy_visits,
-              visits);
+        empty(results, result_extras, result_cells, overwritten, last_overwritten, notes, collisions, copies,
+              copy_visits, visits);
         told = 0;
         events = copied_collisions = 0;
     }

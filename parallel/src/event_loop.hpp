@@ -76,6 +76,10 @@ class EventLoop {
     /// Adds a ball whose cell lies in the region, `crossing_time` since the epoch of `now`. A copy is
     /// simulated until `end`.
     void add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end = kNever);
+    /// Balls i and j may be each the other's partner: then i need not look for it.
+    void suggest_partner(std::uint32_t i, std::uint32_t j) {
+        if (records_[i].next.partner == records_[j].id) records_[i].next.local = j;
+    }
     /// Takes the balls' next events as they are.
     virtual void start() = 0;
     /// Predicts all of them anew.

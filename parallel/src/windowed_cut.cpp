@@ -53,9 +53,10 @@ void WindowedEngine::split(std::vector<BallRecord> records, std::vector<BallExtr
     DomainState& d = domains_.emplace_back();
     d.x = x;
     d.y = y;
-    d.records = std::move(records);
-    d.extras = std::move(extras);
-    index_records(d);
+    d.results = std::move(records);
+    d.result_extras = std::move(extras);
+    index_results(d);
+    take_results(d);
 }
 
 void WindowedEngine::split_anew() {
@@ -73,12 +74,20 @@ void WindowedEngine::split_anew() {
     since_split_ = 0;
 }
 
-void WindowedEngine::index_records(DomainState& d) const {
-    d.cells.clear();
+void WindowedEngine::index_results(DomainState& d) const {
+    d.result_cells.clear();
+    d.result_cells.reserve(d.results.size());
+    for (const BallRecord& r : d.results)
+        d.result_cells.push_back(fold_periodic(bodies_.grid, r.anchor.cell));
+}
+
+/// The results become the records.
+void WindowedEngine::take_results(DomainState& d) {
+    std::swap(d.records, d.results);
+    std::swap(d.extras, d.result_extras);
+    std::swap(d.cells, d.result_cells);
     d.cells_x = d.cells_y = {GridAxis::kFarthest, -GridAxis::kFarthest};
-    for (const BallRecord& r : d.records) {
-        const CellCoordinates c = fold_periodic(bodies_.grid, r.anchor.cell);
-        d.cells.push_back(c);
+    for (const CellCoordinates& c : d.cells) {
         d.cells_x = {std::min(d.cells_x.first, c.x), std::max(d.cells_x.last, c.x + 1)};
         d.cells_y = {std::min(d.cells_y.first, c.y), std::max(d.cells_y.last, c.y + 1)};
     }

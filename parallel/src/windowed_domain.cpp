@@ -12,7 +12,8 @@ constexpr std::int32_t kKept = 4;
 
 }  // namespace
 
-/// Appends to a message what a domain holds for a region: plain data, all that the receiver needs.
+/// Appends to a message what a domain holds for the region of another one: plain data, all that the receiver
+/// needs.
 void WindowedEngine::pack(std::uint32_t from, const Region& region, std::vector<BallMessage>& message) const {
     const DomainState& source = domains_[from];
     if (!region.x.meets(source.cells_x) || !region.y.meets(source.cells_y)) return;
@@ -27,10 +28,35 @@ void WindowedEngine::pack(std::uint32_t from, const Region& region, std::vector<
     }
 }
 
-/// Fills a loop from a message: the domain's own balls first, then copies of the others. With `ends_early` a
-/// copy is given up the sooner the deeper in the halo it starts: what it does later cannot reach the domain
-/// before the window ends.
-void WindowedEngine::unpack(const std::vector<BallMessage>& message, const Region& region, std::int32_t halo,
+/// Adds what domain `self` holds and stays with it; the message gets what has left it for the halo.
+void WindowedEngine::add_residents(std::uint32_t self, const Region& region, Workshop& w) const {
+    const DomainState& d = domains_[self];
+    w.residents.assign(d.records.size(), kNowhere);
+    const BallExtra none;
+    for (std::uint32_t k = 0; k < d.records.size(); ++k) {
+        const CellCoordinates& c = d.cells[k];
+        const BallExtra& extra = d.extras.empty() ? none : d.extras[k];
+        const std::int32_t depth = region.depth(region.framed(c));
+        if (depth == 0) {
+            w.residents[k] = w.loop->size();
+            w.loop->add(d.records[k], &extra, true);
+            w.origins.push_back({self, k});
+        } else if (region.x.covers(c.x) && region.y.covers(c.y)) {
+            w.message.push_back({d.records[k], extra, {self, k}, depth});
+        }
+    }
+    // Partners that stayed as well are told apart by where they were, and need not be looked for.
+    for (std::uint32_t k = 0; k < d.records.size(); ++k) {
+        const std::uint32_t partner = d.records[k].next.local;
+        if (w.residents[k] != kNowhere && partner < w.residents.size() && w.residents[partner] != kNowhere)
+            w.loop->suggest_partner(w.residents[k], w.residents[partner]);
+    }
+}
+
+/// Fills a loop from a message: first balls that are the domain's own, then copies of the others. With
+/// `ends_early` a copy is given up the sooner the deeper in the halo it starts: what it does later cannot
+/// reach the domain before the window ends.
+void WindowedEngine::unpack(const std::vector<BallMessage>& message, std::int32_t halo,
                             const Time& window_end, bool ends_early, Workshop& w) const {
     const Clock& clock = bodies_.physics.clock;
     std::vector<Time> ends;  // of copies, by depth
@@ -40,9 +66,6 @@ void WindowedEngine::unpack(const std::vector<BallMessage>& message, const Regio
             depth <= kKept ? 1.0 : double(halo - depth + 1) / double(std::max(1, halo - kKept + 1));
         ends.push_back(share < 1 && ends_early ? clock.after(window_start_, share * length) : kNever);
     }
-    w.loop->clear(region, window_start_);
-    w.loop->reserve(message.size());
-    w.origins.clear();
     for (const bool own : {true, false}) {
         for (const BallMessage& ball : message) {
             if ((ball.depth == 0) != own) continue;
@@ -54,11 +77,19 @@ void WindowedEngine::unpack(const std::vector<BallMessage>& message, const Regio
     }
 }
 
-void WindowedEngine::load(Workshop& w, const Region& region, std::int32_t halo, const Time& window_end,
-                          bool ends_early) const {
+/// Fills a loop for a region, that of domain `self` or the whole plane where that is none.
+void WindowedEngine::load(Workshop& w, std::size_t self, const Region& region, std::int32_t halo,
+                          const Time& window_end, bool ends_early) const {
     w.message.clear();
-    for (std::uint32_t d = 0; d < domains_.size(); ++d) pack(d, region, w.message);
-    unpack(w.message, region, halo, window_end, ends_early, w);
+    w.origins.clear();
+    w.loop->clear(region, window_start_);
+    for (std::uint32_t d = 0; d < domains_.size(); ++d) {
+        if (d == self)
+            add_residents(d, region, w);
+        else
+            pack(d, region, w.message);
+    }
+    unpack(w.message, halo, window_end, ends_early, w);
 }
 
 void WindowedEngine::run(DomainState& d, const Time& window_end, bool inclusive) {
@@ -67,7 +98,7 @@ void WindowedEngine::run(DomainState& d, const Time& window_end, bool inclusive)
     w.loop->keeps_window = true;
     w.loop->is_patient = false;  // all balls together will tell
     d.region = {bodies_.grid, d.x, d.y, d.halo};
-    load(w, d.region, d.halo, window_end, true);
+    load(w, static_cast<std::size_t>(&d - domains_.data()), d.region, d.halo, window_end, true);
     w.loop->start();
     try {
         w.loop->advance_to(window_end, inclusive);
@@ -89,6 +120,7 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     d.copied_collisions =
         loop.collisions_of_all - std::min<std::uint64_t>(loop.collisions_of_all, d.notes.size());
     d.results.assign(loop.records().begin(), loop.records().begin() + w.own);
+    index_results(d);
     for (std::uint32_t i = 0; i < w.own; ++i) {
         if (bodies_.needs_extras()) d.result_extras.push_back(loop.extra(i));
         d.last_overwritten.push_back(loop.last_overwritten(i));

@@ -67,7 +67,7 @@ void WindowedEngine::run_together(const Time& window_end, bool inclusive) {
     const Lease lease(*this);
     Workshop& w = *lease;
     w.loop->keeps_window = w.loop->is_patient = true;
-    load(w, {bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0}, 0, window_end, false);
+    load(w, kAll, {bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0}, 0, window_end, false);
     w.loop->start();
     w.loop->advance_to(window_end, inclusive);
     EventLoop& loop = *w.loop;
@@ -89,6 +89,7 @@ void WindowedEngine::run_together(const Time& window_end, bool inclusive) {
         }
         d.last_overwritten.push_back(last);
     }
+    for (DomainState& d : domains_) index_results(d);
     std::swap(domains_.front().notes, loop.notes);
     std::swap(domains_.front().collisions, loop.collisions);
     domains_.front().events = loop.events;
@@ -102,7 +103,7 @@ void WindowedEngine::predict_anew(bool renews_field) {
         const Lease lease(*this);
         Workshop& w = *lease;
         w.loop->keeps_window = false;
-        load(w, {bodies_.grid, d.x, d.y, kSight}, kSight, kNever, false);
+        load(w, k, {bodies_.grid, d.x, d.y, kSight}, kSight, kNever, false);
         if (renews_field) w.loop->renew_field(window_start_);
         w.loop->predict_all(nullptr);
         d.clear_outcome();
@@ -110,6 +111,7 @@ void WindowedEngine::predict_anew(bool renews_field) {
         d.results.assign(w.loop->records().begin(), w.loop->records().begin() + w.own);
         for (std::uint32_t i = 0; bodies_.needs_extras() && i < w.own; ++i)
             d.result_extras.push_back(w.loop->extra(i));
+        index_results(d);
     });
     in_window_ = true;
     window_end_ = window_start_;
@@ -119,12 +121,7 @@ void WindowedEngine::predict_anew(bool renews_field) {
 /// The results become the records.
 void WindowedEngine::commit() {
     if (!in_window_) return;
-    for_each_domain([&](std::size_t k) {
-        DomainState& d = domains_[k];
-        std::swap(d.records, d.results);
-        std::swap(d.extras, d.result_extras);
-        index_records(d);
-    });
+    for_each_domain([&](std::size_t k) { take_results(domains_[k]); });
     std::size_t most = 0;
     was_quiet_ = std::ranges::all_of(domains_, [](const DomainState& d) { return d.events == 0; });
     for (const DomainState& d : domains_) {

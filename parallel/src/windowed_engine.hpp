@@ -51,7 +51,8 @@ class WindowedEngine final : public Engine {
         std::vector<Origin> origins;  // one a ball of the loop, the domain's own first
         std::uint32_t own = 0;        // so many are the domain's own
         std::vector<BallMessage> message;
-        std::thread::id thread;  // that used it last
+        std::vector<std::uint32_t> residents;  // where the domain's records are in the loop
+        std::thread::id thread;                // that used it last
     };
     class Lease;
 
@@ -65,12 +66,15 @@ class WindowedEngine final : public Engine {
     }
     void split(std::vector<BallRecord> records, std::vector<BallExtra> extras, Span x, Span y, int parts);
     void split_anew();
-    void index_records(DomainState& d) const;
+    void index_results(DomainState& d) const;
+    static void take_results(DomainState& d);
+    void add_residents(std::uint32_t self, const Region& region, Workshop& w) const;
     void pack(std::uint32_t from, const Region& region, std::vector<BallMessage>& message) const;
-    void unpack(const std::vector<BallMessage>& message, const Region& region, std::int32_t halo,
-                const Time& window_end, bool ends_early, Workshop& w) const;
-    void load(Workshop& w, const Region& region, std::int32_t halo, const Time& window_end,
+    void unpack(const std::vector<BallMessage>& message, std::int32_t halo, const Time& window_end,
+                bool ends_early, Workshop& w) const;
+    void load(Workshop& w, std::size_t self, const Region& region, std::int32_t halo, const Time& window_end,
               bool ends_early) const;
+    static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
     void run(DomainState& d, const Time& window_end, bool inclusive);
     void keep_outcome(DomainState& d, Workshop& w, const Time& window_end);
     [[nodiscard]] bool agrees(const DomainState& d) const;
