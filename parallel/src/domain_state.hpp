@@ -49,10 +49,11 @@ struct DomainState {
 
     // At the start of the window: the balls that it simulated last, wherever they are now.
     std::vector<BallRecord> records;
-    std::vector<BallExtra> extras;         ///< one a record where the scene needs them
-    std::vector<CellCoordinates> cells;    ///< of the records, folded into the box on periodic axes
-    Span cells_x, cells_y;                 ///< that hold them all
-    std::vector<std::uint64_t> histories;  ///< of the records in the window, written by their owners
+    std::vector<BallExtra> extras;           ///< one a record where the scene needs them
+    std::vector<CellCoordinates> cells;      ///< of the records, folded into the box on periodic axes
+    Span cells_x, cells_y;                   ///< that hold them all
+    std::vector<std::uint32_t> near_border;  ///< those that halos as wide as all start with may hold
+    std::vector<std::uint64_t> histories;    ///< of the records in the window, written by their owners
 
     // After the window: its own balls.
     std::vector<BallRecord> results;

@@ -8,7 +8,7 @@ namespace carom {
 namespace {
 
 // A domain of about so many balls, with its halo, fits a core's second-level cache.
-constexpr double kBallsOfDomain = 6000;
+constexpr double kBallsOfDomain = 12000;
 // With fewer balls a thread the halo costs more than another thread gives.
 constexpr double kFewestOfThread = 2000;
 

@@ -82,12 +82,18 @@ void WindowedEngine::index_results(DomainState& d) const {
 }
 
 /// The results become the records.
-void WindowedEngine::take_results(DomainState& d) {
+void WindowedEngine::take_results(DomainState& d) const {
     std::swap(d.records, d.results);
     std::swap(d.extras, d.result_extras);
     std::swap(d.cells, d.result_cells);
     d.cells_x = d.cells_y = {GridAxis::kFarthest, -GridAxis::kFarthest};
-    for (const CellCoordinates& c : d.cells) {
+    d.near_border.clear();
+    const auto is_near = [this](const Span& own, std::int32_t k) {
+        return k < own.first + halo_ || k >= own.last - halo_;
+    };
+    for (std::uint32_t k = 0; k < d.cells.size(); ++k) {
+        const CellCoordinates& c = d.cells[k];
+        if (is_near(d.x, c.x) || is_near(d.y, c.y)) d.near_border.push_back(k);
         d.cells_x = {std::min(d.cells_x.first, c.x), std::max(d.cells_x.last, c.x + 1)};
         d.cells_y = {std::min(d.cells_y.first, c.y), std::max(d.cells_y.last, c.y + 1)};
     }

@@ -14,18 +14,23 @@ constexpr std::int32_t kKept = 4;
 
 /// Appends to a message what a domain holds for the region of another one: plain data, all that the receiver
 /// needs.
-void WindowedEngine::pack(std::uint32_t from, const Region& region, std::vector<BallMessage>& message) const {
+void WindowedEngine::pack(std::uint32_t from, const Region& region, std::int32_t halo,
+                          std::vector<BallMessage>& message) const {
     const DomainState& source = domains_[from];
     if (!region.x.meets(source.cells_x) || !region.y.meets(source.cells_y)) return;
-    for (std::uint32_t k = 0; k < source.records.size(); ++k) {
+    const auto pack_one = [&](std::uint32_t k) {
         const CellCoordinates& c = source.cells[k];
-        if (!region.x.covers(c.x) || !region.y.covers(c.y)) continue;
+        if (!region.x.covers(c.x) || !region.y.covers(c.y)) return;
         BallMessage& ball = message.emplace_back();
         ball.record = source.records[k];
         if (!source.extras.empty()) ball.extra = source.extras[k];
         ball.origin = {from, k};
         ball.depth = region.depth(region.framed(c));
-    }
+    };
+    if (halo <= halo_)
+        std::ranges::for_each(source.near_border, pack_one);
+    else
+        for (std::uint32_t k = 0; k < source.records.size(); ++k) pack_one(k);
 }
 
 /// Adds what domain `self` holds and stays with it; the message gets what has left it for the halo.
@@ -87,7 +92,7 @@ void WindowedEngine::load(Workshop& w, std::size_t self, const Region& region, s
         if (d == self)
             add_residents(d, region, w);
         else
-            pack(d, region, w.message);
+            pack(d, region, self == kAll ? kEverything : halo, w.message);
     }
     unpack(w.message, halo, window_end, ends_early, w);
 }

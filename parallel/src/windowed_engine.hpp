@@ -67,14 +67,16 @@ class WindowedEngine final : public Engine {
     void split(std::vector<BallRecord> records, std::vector<BallExtra> extras, Span x, Span y, int parts);
     void split_anew();
     void index_results(DomainState& d) const;
-    static void take_results(DomainState& d);
+    void take_results(DomainState& d) const;
     void add_residents(std::uint32_t self, const Region& region, Workshop& w) const;
-    void pack(std::uint32_t from, const Region& region, std::vector<BallMessage>& message) const;
+    void pack(std::uint32_t from, const Region& region, std::int32_t halo,
+              std::vector<BallMessage>& message) const;
     void unpack(const std::vector<BallMessage>& message, std::int32_t halo, const Time& window_end,
                 bool ends_early, Workshop& w) const;
     void load(Workshop& w, std::size_t self, const Region& region, std::int32_t halo, const Time& window_end,
               bool ends_early) const;
     static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+    static constexpr std::int32_t kEverything = std::numeric_limits<std::int32_t>::max();  // as a halo
     void run(DomainState& d, const Time& window_end, bool inclusive);
     void keep_outcome(DomainState& d, Workshop& w, const Time& window_end);
     [[nodiscard]] bool agrees(const DomainState& d) const;
