@@ -49,9 +49,9 @@ void require_distinct_files(const RunOptions& options) {
         {"--trajectory", options.trajectory}, {"--events", options.events},
         {"--final", options.final_state},     {"--picture", options.picture},
         {"--summary", options.summary},       {"--checkpoint", options.checkpoint}};
-    require_distinct(options.scene, files);
-    files.back() = {"--resume", options.resume};  // these two may be one
-    require_distinct(options.scene, files);
+    require_distinct({"the scene", options.scene}, files);
+    files.pop_back();  // a checkpoint may take the place of the one that was gone on from
+    if (!options.resume.empty()) require_distinct({"the checkpoint", options.resume}, files);
 }
 
 /// The checkpoint to go on from, none without --resume. Throws FileError.
