@@ -162,7 +162,8 @@ RunOutputs::RunOutputs(const RunOptions& options, const RunRecord& done) {
 bool run_world(World& world, const Scene& scene, double until, const RunOptions& options,
                const std::optional<RunRecord>& record, RunOutputs& outputs) {
     Checkpointer checkpointer(world, options, record);
-    Progress progress(!options.quiet, world.time(), until);
+    const Counts before = world.counts();
+    Progress progress(!options.quiet, world.time(), until, before.ball_collisions + before.wall_collisions);
     Driver driver(world, progress, until);
     if (outputs.events) listen(world, driver, *outputs.events);
 

@@ -110,7 +110,7 @@ class KilledRun {
 
  private:
     static Words words(const std::string& name) {
-        Words all = {"run",          "s.json",      "--quiet",     "--until", "150",
+        Words all = {"run",          "s.json",      "--quiet",     "--until", "400",
                      "--trajectory", name + ".xyz", "--every",     "5",       "--events",
                      name + ".csv",  "--summary",   name + ".json"};
         if (name == "b") all.insert(all.end(), {"--checkpoint", "c", "--checkpoint-every", "1.7"});

@@ -50,13 +50,17 @@ class Resume : public testing::TestWithParam<NamedScene> {};
 TEST_P(Resume, OnceWithAnyThreadsAndDomainsOnEitherSide) {
     const Scene& scene = GetParam().scene;
     const Outcome whole = run(scene, ways()[0], kEnd);
-    for (const double stop : {0.0, 0.37, 3.1})
-        for (const WorldOptions& before : ways())
-            for (const WorldOptions& after : ways()) {
-                SCOPED_TRACE(testing::Message() << "stop " << stop << ", domains " << before.domains
-                                                << " then " << after.domains);
-                expect_equal(run_in_legs(scene, {{stop, before}, {kEnd, after}}), whole);
-            }
+    const auto stop_at = [&](double stop, const WorldOptions& before, const WorldOptions& after) {
+        SCOPED_TRACE(testing::Message()
+                     << "stop " << stop << ", domains " << before.domains << " then " << after.domains);
+        expect_equal(run_in_legs(scene, {{stop, before}, {kEnd, after}}), whole);
+    };
+    for (const WorldOptions& before : ways())
+        for (const WorldOptions& after : ways()) stop_at(3.1, before, after);
+    for (const double stop : {0.0, 0.37, kEnd}) {
+        stop_at(stop, ways()[0], ways()[1]);
+        stop_at(stop, ways()[1], ways()[0]);
+    }
 }
 
 // A stop at the time of an event, an ulp before and an ulp after it: nothing is lost and nothing is twice.
@@ -211,6 +215,27 @@ TEST(Restore, KeepsWhatTheSummaryTells) {
     EXPECT_EQ(again.momentum(), world.momentum());
     EXPECT_EQ(again.max_overlap(), world.max_overlap());
     EXPECT_EQ(again.counts().events, world.counts().events);
+}
+
+// A fall through a periodic side costs potential energy each time: the periods passed count.
+TEST(Restore, KeepsTheEnergyOverPeriods) {
+    Scene scene = gas(1, {.packing = 0.1});
+    scene.gravity = {2, 0};
+    World world(scene, {.threads = 1});
+    world.advance_to(10);
+    const World again(scene, world.snapshot(), {.threads = 2, .domains = 4});
+    EXPECT_EQ(again.energy(), world.energy());
+}
+
+TEST(Restore, TakesASceneInWhichNothingMoves) {
+    Scene scene = gas(1, {.count = 4});
+    for (Ball& b : scene.balls) b.is_static = true, b.velocity.setZero();
+    World world(scene, {.threads = 1});
+    world.advance_to(3);
+    World again(scene, world.snapshot());
+    again.advance_to(5);
+    world.advance_to(5);
+    EXPECT_EQ(again.state_hash(), world.state_hash());
 }
 
 }  // namespace
