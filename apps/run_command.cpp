@@ -75,7 +75,7 @@ World make_world(const Scene& scene, const RunOptions& options, const std::optio
                               .halo = options.halo};
     if (!from) return World(scene, wanted);
     try {
-        return {scene, from->snapshot, wanted};
+        return {scene, wanted, from->snapshot};
     } catch (const SnapshotError& error) {
         throw FileError(options.resume, error.what());
     }

@@ -30,12 +30,12 @@ class Source {
         return taken;
     }
     std::string name() {
-        std::string_view padded = text(kNameSize);
+        const std::string_view padded = text(kNameSize);
         return std::string(padded.substr(0, padded.find('\0')));
     }
     template <class Unsigned>
     Unsigned take() {
-        return little_endian_at<Unsigned>(text(sizeof(Unsigned)).data());
+        return first_little_endian<Unsigned>(text(sizeof(Unsigned)));
     }
 
     void operator()(bool& truth) { truth = take<std::uint64_t>() != 0; }
@@ -110,7 +110,7 @@ std::string fault_of(std::string_view bytes) {
         return fmt::format("is no whole checkpoint: it has {} bytes, its header says {}", bytes.size(), size);
     Crc64 checksum;
     checksum.add(bytes.substr(0, bytes.size() - kChecksumSize));
-    if (checksum.value() != little_endian_at<std::uint64_t>(bytes.data() + bytes.size() - kChecksumSize))
+    if (checksum.value() != first_little_endian<std::uint64_t>(bytes.substr(bytes.size() - kChecksumSize)))
         return "is damaged: its checksum does not fit";
     return "";
 }

@@ -34,7 +34,7 @@ constexpr Tables kTables = make_tables();
 void Crc64::add(std::string_view bytes) {
     std::uint64_t state = state_;
     for (; bytes.size() >= kSlices; bytes.remove_prefix(kSlices)) {
-        const std::uint64_t mixed = state ^ little_endian_at<std::uint64_t>(bytes.data());
+        const std::uint64_t mixed = state ^ first_little_endian<std::uint64_t>(bytes);
         state = 0;
         for (std::size_t k = 0; k < kSlices; ++k) state ^= kTables[kSlices - 1 - k][(mixed >> (8 * k)) & 255];
     }

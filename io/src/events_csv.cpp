@@ -17,10 +17,10 @@ EventsCsv::EventsCsv(const std::filesystem::path& path) {
 
 EventsCsv::EventsCsv(const std::filesystem::path& path, std::uint64_t kept) {
     if (kept > 0) {
-        growing_.emplace(path, kept);
+        growing_ = std::make_unique<GrowingFile>(path, kept);
         return;
     }
-    growing_.emplace(path);
+    growing_ = std::make_unique<GrowingFile>(path);
     put_header();
 }
 

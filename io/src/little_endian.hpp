@@ -5,16 +5,18 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 namespace carom {
 
+/// From the first bytes; there must be enough of them.
 template <class Unsigned>
-[[nodiscard]] inline Unsigned little_endian_at(const char* bytes) {
+[[nodiscard]] inline Unsigned first_little_endian(std::string_view bytes) {
     static_assert(std::is_unsigned_v<Unsigned>);
     Unsigned value = 0;
     if constexpr (std::endian::native == std::endian::little) {
-        std::memcpy(&value, bytes, sizeof(value));
+        std::memcpy(&value, bytes.data(), sizeof(value));
     } else {
         for (std::size_t k = sizeof(value); k > 0; --k)
             value = static_cast<Unsigned>((value << 8) | static_cast<unsigned char>(bytes[k - 1]));

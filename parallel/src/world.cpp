@@ -263,7 +263,7 @@ class World::State {
 
 World::World(const Scene& scene, const WorldOptions& options)
     : state_(std::make_unique<State>(scene, options, nullptr)) {}
-World::World(const Scene& scene, const Snapshot& snapshot, const WorldOptions& options)
+World::World(const Scene& scene, const WorldOptions& options, const Snapshot& snapshot)
     : state_(std::make_unique<State>(scene, options, &snapshot)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;

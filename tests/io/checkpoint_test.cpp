@@ -131,7 +131,9 @@ TEST(Checkpoint, HasTheDocumentedBytes) {
     c.snapshot.time = 1;
     c.snapshot.anchors.push_back({{2, -2}, {0.5, 0}, {3, 0.25}, -1, 7});
     const std::string bytes = bytes_of(c);
-    const auto word = [&bytes](std::size_t place) { return little_endian_at<std::uint64_t>(&bytes[place]); };
+    const auto word = [&bytes](std::size_t place) {
+        return first_little_endian<std::uint64_t>(std::string_view(bytes).substr(place));
+    };
     EXPECT_EQ(bytes.substr(0, 8),
               "\x89"
               "CAROM\r\n");

@@ -26,7 +26,7 @@ Outcome run_in_legs(const Scene& scene, const std::vector<Leg>& legs) {
     Outcome out;
     Snapshot snapshot;
     for (std::size_t k = 0; k < legs.size(); ++k) {
-        World world = k == 0 ? World(scene, legs[k].options) : World(scene, snapshot, legs[k].options);
+        World world = k == 0 ? World(scene, legs[k].options) : World(scene, legs[k].options, snapshot);
         world.on_collision(
             [&out](const Collision& c) { out.collisions.emplace_back(c.time, c.i, c.j, c.impulse); });
         world.advance_to(legs[k].until);
@@ -96,7 +96,7 @@ TEST_P(Resume, SnapshotsDoNotTellHowTheyWereReached) {
     plain.advance_to(2.2);
     World cut(scene, ways()[1]);
     cut.advance_to(0.9);
-    cut = World(scene, cut.snapshot(), ways()[2]);
+    cut = World(scene, ways()[2], cut.snapshot());
     cut.advance_to(2.2);
     const Snapshot a = plain.snapshot();
     const Snapshot b = cut.snapshot();
@@ -208,7 +208,7 @@ TEST(Restore, KeepsWhatTheSummaryTells) {
     Scene scene = gas(1, {.packing = 0.4, .speed = 4});
     World world(scene, {.threads = 1});
     world.advance_to(20);
-    const World again(scene, world.snapshot(), {.threads = 2, .domains = 4});
+    const World again(scene, {.threads = 2, .domains = 4}, world.snapshot());
     EXPECT_EQ(again.compressibility_factor(), world.compressibility_factor());
     EXPECT_EQ(again.virial(), world.virial());
     EXPECT_EQ(again.energy(), world.energy());
@@ -223,7 +223,7 @@ TEST(Restore, KeepsTheEnergyOverPeriods) {
     scene.gravity = {2, 0};
     World world(scene, {.threads = 1});
     world.advance_to(10);
-    const World again(scene, world.snapshot(), {.threads = 2, .domains = 4});
+    const World again(scene, {.threads = 2, .domains = 4}, world.snapshot());
     EXPECT_EQ(again.energy(), world.energy());
 }
 
@@ -232,7 +232,7 @@ TEST(Restore, TakesASceneInWhichNothingMoves) {
     for (Ball& b : scene.balls) b.is_static = true, b.velocity.setZero();
     World world(scene, {.threads = 1});
     world.advance_to(3);
-    World again(scene, world.snapshot());
+    World again(scene, {}, world.snapshot());
     again.advance_to(5);
     world.advance_to(5);
     EXPECT_EQ(again.state_hash(), world.state_hash());

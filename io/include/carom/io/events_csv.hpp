@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -42,8 +43,8 @@ class EventsCsv {
     void put_header();
     void flush();
 
-    std::optional<AtomicFile> whole_;  // either this
-    std::optional<GrowingFile> growing_;
+    std::optional<AtomicFile> whole_;
+    std::unique_ptr<GrowingFile> growing_;  // where that is not
     std::string buffer_;
 };
 

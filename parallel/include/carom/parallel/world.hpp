@@ -52,7 +52,7 @@ class World {
     /// cannot be simulated.
     explicit World(const Scene& scene, const WorldOptions& options = {});
     /// The same scene as a snapshot has it, to go on from there. Throws SnapshotError as restore() does.
-    World(const Scene& scene, const Snapshot& snapshot, const WorldOptions& options = {});
+    World(const Scene& scene, const WorldOptions& options, const Snapshot& snapshot);
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
