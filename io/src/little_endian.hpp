@@ -16,7 +16,7 @@ template <class Unsigned>
     static_assert(std::is_unsigned_v<Unsigned>);
     Unsigned value = 0;
     if constexpr (std::endian::native == std::endian::little) {
-        std::memcpy(&value, bytes.data(), sizeof(value));
+        bytes.copy(reinterpret_cast<char*>(&value), sizeof(value));
     } else {
         for (std::size_t k = sizeof(value); k > 0; --k)
             value = static_cast<Unsigned>((value << 8) | static_cast<unsigned char>(bytes[k - 1]));
