@@ -31,6 +31,11 @@ std::optional<double> Multiples::next() const {
     return time;
 }
 
+std::optional<double> Multiples::left_out() const {
+    const double time = count_ * step_;
+    return !next() && time < until_ ? std::optional(time) : std::nullopt;
+}
+
 Driver::Driver(World& world, Progress& progress, double until)
     : world_(world),
       progress_(progress),

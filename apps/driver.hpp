@@ -1,6 +1,7 @@
 // Moves a world forward in slices short enough to look up in between: for progress, for Ctrl-C.
 #pragma once
 
+#include <cmath>
 #include <exception>
 #include <functional>
 #include <optional>
@@ -31,15 +32,22 @@ class SlicePace {
 /// out.
 class Multiples {
  public:
-    Multiples(double step, double until) : step_(step), until_(until) {}
+    /// From the `first` on: 0 for all.
+    Multiples(double step, double until, double first = 0) : step_(step), until_(until), count_(first) {}
+    /// Those after `time` only.
+    [[nodiscard]] static Multiples after(double time, double step, double until) {
+        return {step, until, std::floor(time / step) + 1};
+    }
     /// The next multiple; none when the rest lies at or beyond `until`.
     [[nodiscard]] std::optional<double> next() const;
     void advance() { count_ += 1; }
+    /// The multiple that is `until` but for rounding, where it lies before it.
+    [[nodiscard]] std::optional<double> left_out() const;
 
  private:
     double step_;
     double until_;
-    double count_ = 0;
+    double count_;
 };
 
 class Driver {

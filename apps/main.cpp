@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -72,6 +73,8 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace carom::app;
+    // A file larger than the user's limit is an error of writing like a full disk, not the program's end.
+    (void)std::signal(SIGXFSZ, SIG_IGN);
     try {
         return run_program(argc, argv);
     } catch (const std::bad_alloc&) {

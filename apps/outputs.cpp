@@ -29,12 +29,12 @@ bool is_file(const std::string& path) {
 
 }  // namespace
 
-void require_distinct(const std::string& scene, const std::vector<NamedPath>& outputs) {
+void require_distinct(const NamedPath& input, const std::vector<NamedPath>& outputs) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         if (!is_file(outputs[i].path)) continue;
-        if (same_file(outputs[i].path, scene)) {
+        if (same_file(outputs[i].path, input.path)) {
             throw CLI::ValidationError(outputs[i].option,
-                                       fmt::format("would overwrite the scene '{}'", scene));
+                                       fmt::format("would overwrite {} '{}'", input.option, input.path));
         }
         for (std::size_t j = 0; j < i; ++j) {
             if (is_file(outputs[j].path) && same_file(outputs[i].path, outputs[j].path)) {

@@ -120,13 +120,15 @@ std::string progress_line(const ProgressReading& reading) {
     return line;
 }
 
-Progress::Progress(bool enabled, double from, double until)
+Progress::Progress(bool enabled, double from, double until, std::uint64_t collisions)
     : enabled_(enabled),
       is_terminal_(enabled && can_draw_bar()),
       utf8_(is_terminal_ && locale_has_utf8()),
       from_(from),
       until_(until),
       time_(from),
+      collisions_before_(collisions),
+      collisions_(collisions),
       start_(std::chrono::steady_clock::now()),
       last_shown_(start_) {}
 
@@ -162,7 +164,7 @@ void Progress::finish() {
 ProgressReading Progress::reading(Instant now) const {
     const double elapsed = Seconds(now - start_).count();
     ProgressReading result{time_, until_, collisions_, 0, std::nullopt, std::nullopt};
-    if (elapsed > 0) result.collisions_per_second = double(collisions_) / elapsed;
+    if (elapsed > 0) result.collisions_per_second = double(collisions_ - collisions_before_) / elapsed;
     if (time_ > from_) result.seconds_left = elapsed * (until_ - time_) / (time_ - from_);
     return result;
 }

@@ -29,8 +29,8 @@ struct ProgressReading {
 /// Shows progress at a fitting pace. Nothing is shown of runs that are over at once.
 class Progress {
  public:
-    /// `enabled` false: shows nothing, ever. `from`: simulated time at the start.
-    Progress(bool enabled, double from, double until);
+    /// `enabled` false: shows nothing, ever. `from`: simulated time at the start; `collisions` so far.
+    Progress(bool enabled, double from, double until, std::uint64_t collisions = 0);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -54,7 +54,8 @@ class Progress {
     double from_;
     double until_;
     double time_;
-    std::uint64_t collisions_ = 0;
+    std::uint64_t collisions_before_;
+    std::uint64_t collisions_;
     Instant start_;
     Instant last_shown_;
     double last_line_share_ = 0;

@@ -41,7 +41,7 @@ struct RenderOptions {
 };
 
 int render(const RenderOptions& options) {
-    require_distinct(options.scene, {{"--out", options.out}});
+    require_distinct({"the scene", options.scene}, {{"--out", options.out}});
     const Scene scene = read_scene(options.scene);
     AtomicFile file(options.out);
     watch_for_interrupts();

@@ -4,12 +4,12 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 
 #include <carom/io/summary.hpp>
 
+#include "checkpointer.hpp"
 #include "driver.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
@@ -19,9 +19,9 @@
 namespace carom::app {
 namespace {
 
-template <class File>
-void open_if_named(std::optional<File>& file, const std::string& path) {
-    if (!path.empty()) file.emplace(path);
+template <class File, class... Kept>
+void open_if_named(std::optional<File>& file, const std::string& path, Kept... kept) {
+    if (!path.empty()) file.emplace(path, kept...);
 }
 
 std::uint64_t peak_memory_bytes() {
@@ -48,12 +48,16 @@ Precision output_precision(const Scene& scene, const RunOptions& options) {
     return options.output_precision.value_or(scene.precision);
 }
 
-// Moves the world from stop to stop: frames, steps, the end. False when interrupted.
+// Moves the world from stop to stop: frames, steps, checkpoints, the end. False when interrupted.
 bool move_to_end(World& world, Driver& driver, const Scene& scene, double until, const RunOptions& options,
-                 RunOutputs& outputs) {
-    Multiples frames(options.every.value_or(1), outputs.trajectory ? until : 0);
-    Multiples steps(options.step.value_or(1), options.step ? until : 0);
-    double last_frame = -1;
+                 Checkpointer& checkpointer, RunOutputs& outputs) {
+    RunRecord& record = checkpointer.record;
+    Multiples frames(record.frame_interval, outputs.trajectory ? until : 0, double(record.next_frame));
+    Multiples steps = Multiples::after(world.time(), options.step.value_or(1), options.step ? until : 0);
+    Multiples checkpoints =
+        Multiples::after(world.time(), checkpointer.interval(until), checkpointer.is_wanted() ? until : 0);
+    double last_frame =
+        record.trajectory_bytes > 0 ? double(record.next_frame - 1) * record.frame_interval : -1;
     const auto write_frame = [&] {
         outputs.trajectory->write(world.time(), world.balls(), scene.domain,
                                   output_precision(scene, options));
@@ -63,34 +67,38 @@ bool move_to_end(World& world, Driver& driver, const Scene& scene, double until,
     while (going) {
         const std::optional<double> frame = frames.next();
         const std::optional<double> step = steps.next();
-        if (!frame && !step) break;
-        const double stop = std::min(frame.value_or(until), step.value_or(until));
+        const std::optional<double> checkpoint = checkpoints.next();
+        if (!frame && !step && !checkpoint) break;
+        const double stop =
+            std::min({frame.value_or(until), step.value_or(until), checkpoint.value_or(until)});
         going = driver.advance_to(stop);
         if (going && frame && *frame <= stop) {
             write_frame();
             frames.advance();
+            ++record.next_frame;
         }
         if (step && *step <= stop) steps.advance();
+        if (going && checkpoint && *checkpoint <= stop) {
+            checkpointer.save(world, outputs);
+            checkpoints.advance();
+        }
+    }
+    if (checkpointer.is_wanted()) {
+        // A frame that this end has swallowed, being due a rounding before it, is due in a longer run.
+        going = going && driver.advance_to(frames.left_out().value_or(until));
+        checkpointer.save(world, outputs);
     }
     going = going && driver.advance_to(until);
+    // Of this run's end, not of the one that a checkpoint may lead to.
     if (outputs.trajectory && last_frame < world.time()) write_frame();
     return going;
 }
-
-// What the world is like at one moment, as far as the summary compares two.
-struct Balance {
-    double energy;
-    Vec2 momentum;
-
-    explicit Balance(const World& world) : energy(world.energy()), momentum(world.momentum()) {}
-};
 
 double relative_change(double from, double to) {
     return from == to ? 0 : (to - from) / std::abs(from);
 }
 
-Summary summary_of(const World& world, const Scene& scene, const Balance& start, double wall_seconds) {
-    const Balance end(world);
+Summary summary_of(const World& world, const Scene& scene, const RunRecord& record, double wall_seconds) {
     const Counts counts = world.counts();
     Summary summary;
     summary.scene = scene.name;
@@ -105,11 +113,11 @@ Summary summary_of(const World& world, const Scene& scene, const Balance& start,
     summary.wall_seconds = wall_seconds;
     const double collisions = double(counts.ball_collisions + counts.wall_collisions);
     summary.collisions_per_second = wall_seconds > 0 ? collisions / wall_seconds : 0;
-    summary.energy_initial = start.energy;
-    summary.energy_final = end.energy;
-    summary.energy_relative_change = relative_change(start.energy, end.energy);
-    summary.momentum_initial = start.momentum;
-    summary.momentum_final = end.momentum;
+    summary.energy_initial = record.energy_initial;
+    summary.energy_final = world.energy();
+    summary.energy_relative_change = relative_change(record.energy_initial, summary.energy_final);
+    summary.momentum_initial = record.momentum_initial;
+    summary.momentum_final = world.momentum();
     summary.windows = counts.windows;
     summary.window_retries = counts.window_retries;
     summary.max_overlap = world.max_overlap();
@@ -134,29 +142,38 @@ void write_end(const World& world, const Scene& scene, const RunOptions& options
 
 }  // namespace
 
-RunOutputs::RunOutputs(const RunOptions& options) {
-    // The trajectory last: it empties its file, which is not to happen when another output fails.
-    open_if_named(events, options.events);
+RunOutputs::RunOutputs(const RunOptions& options, const RunRecord& done) {
+    if (!options.checkpoint.empty()) const AtomicFile can_be_written(options.checkpoint);
     open_if_named(final_state, options.final_state);
     open_if_named(picture, options.picture);
     if (options.summary != "-") summary.emplace(options.summary);
-    open_if_named(trajectory, options.trajectory);
+    // These last: they may empty their files, which is not to happen when another output fails. A list of
+    // events that a checkpoint is to cover has to be there when the run is killed.
+    if (!options.checkpoint.empty() || done.events_bytes > 0)
+        open_if_named(events, options.events, done.events_bytes);
+    else
+        open_if_named(events, options.events);
+    if (done.trajectory_bytes > 0)
+        open_if_named(trajectory, options.trajectory, done.trajectory_bytes);
+    else
+        open_if_named(trajectory, options.trajectory);
 }
 
 bool run_world(World& world, const Scene& scene, double until, const RunOptions& options,
-               RunOutputs& outputs) {
-    const Balance start(world);
-    Progress progress(!options.quiet, 0, until);
+               const std::optional<RunRecord>& record, RunOutputs& outputs) {
+    Checkpointer checkpointer(world, options, record);
+    const Counts before = world.counts();
+    Progress progress(!options.quiet, world.time(), until, before.ball_collisions + before.wall_collisions);
     Driver driver(world, progress, until);
     if (outputs.events) listen(world, driver, *outputs.events);
 
-    const auto started = std::chrono::steady_clock::now();
-    const bool finished = move_to_end(world, driver, scene, until, options, outputs);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+    checkpointer.start_clock();
+    const bool finished = move_to_end(world, driver, scene, until, options, checkpointer, outputs);
+    const double wall_seconds = checkpointer.wall_seconds();
     progress.finish();
 
     write_end(world, scene, options, outputs);
-    Summary summary = summary_of(world, scene, start, elapsed.count());
+    Summary summary = summary_of(world, scene, checkpointer.record, wall_seconds);
     summary.peak_memory_bytes = peak_memory_bytes();
     if (outputs.summary) {
         outputs.summary->write(to_json(summary));

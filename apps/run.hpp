@@ -6,6 +6,7 @@
 
 #include <carom/core/scene.hpp>
 #include <carom/io/atomic_file.hpp>
+#include <carom/io/checkpoint.hpp>
 #include <carom/io/events_csv.hpp>
 #include <carom/io/xyz.hpp>
 #include <carom/parallel/world.hpp>
@@ -29,13 +30,17 @@ struct RunOptions {
     std::string final_state;
     std::string picture;
     std::string summary = "-";
+    std::string checkpoint;
+    std::optional<double> checkpoint_every;  ///< none: a tenth of the run
+    std::string resume;
     bool quiet = false;
 };
 
 /// The files of a run. All are opened at the start, so that one that cannot be written is known then and not
-/// after an hour. Throws FileError.
+/// after an hour; what `done` covers of the trajectory and the list of events is gone on with. Throws
+/// FileError.
 struct RunOutputs {
-    explicit RunOutputs(const RunOptions& options);
+    RunOutputs(const RunOptions& options, const RunRecord& done);
 
     std::optional<XyzTrajectory> trajectory;
     std::optional<EventsCsv> events;
@@ -45,8 +50,8 @@ struct RunOutputs {
 };
 
 /// Moves the world to `until` and writes the outputs, also when an interrupt ends it earlier: then false.
-/// Throws what the outputs throw.
+/// `record` is what a checkpoint tells of the run before, none at its start. Throws what the outputs throw.
 bool run_world(World& world, const Scene& scene, double until, const RunOptions& options,
-               RunOutputs& outputs);
+               const std::optional<RunRecord>& record, RunOutputs& outputs);
 
 }  // namespace carom::app

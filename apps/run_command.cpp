@@ -4,8 +4,11 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include <carom/io/checkpoint.hpp>
 #include <carom/io/scene_file.hpp>
 
 #include "commands.hpp"
@@ -23,33 +26,78 @@ or --cell-size, to the last bit: 'state_hash' in the summary says so.
 
 Files ending in .xyz are extended XYZ, one frame after the other, with enough digits to read back the same bits.
 --events writes CSV, one collision a line: time,kind,i,j,x,y,nx,ny,impulse. The summary is one JSON object. All outputs
-but the trajectory appear whole, at the end; the trajectory grows as the run goes.
+but the trajectory appear whole, at the end; the trajectory grows as the run goes, and so does --events with --checkpoint.
 
 Ctrl-C ends a run early and writes what was asked for, up to the time reached; a second one ends it at once.
+
+--checkpoint keeps the run's state in a file: every --checkpoint-every, at the end, and at Ctrl-C. --resume goes on from there
+and ends with the same bits, counts, trajectory and events as a run that was never stopped, with any other --threads,
+--domains, --step or a later --until. --trajectory and --events then name the files that the run has left; what they hold
+beyond the checkpoint is cut off and written anew.
 
 Examples:
   carom run gas.json                                 Summary to standard output
   carom run gas.json --until 100 --summary gas.out   Go on longer; summary to a file
   carom run gas.json --trajectory gas.xyz --every 0.5
   carom run gas.json --events hits.csv --picture end.png --final end.xyz
+  carom run gas.json --checkpoint gas.ckpt --checkpoint-every 10
+  carom run gas.json --resume gas.ckpt --checkpoint gas.ckpt
   carom run gas.json --quiet | jq .collisions_per_second)";
 
+void require_distinct_files(const RunOptions& options) {
+    std::vector<NamedPath> files = {
+        {"--trajectory", options.trajectory}, {"--events", options.events},
+        {"--final", options.final_state},     {"--picture", options.picture},
+        {"--summary", options.summary},       {"--checkpoint", options.checkpoint}};
+    require_distinct({"the scene", options.scene}, files);
+    files.pop_back();  // a checkpoint may take the place of the one that was gone on from
+    if (!options.resume.empty()) require_distinct({"the checkpoint", options.resume}, files);
+}
+
+/// The checkpoint to go on from, none without --resume. Throws FileError.
+std::optional<Checkpoint> checkpoint_of(const RunOptions& options, double until) {
+    if (options.resume.empty()) return std::nullopt;
+    Checkpoint checkpoint = read_checkpoint(options.resume);
+    const auto refuse = [&options](const std::string& why) { throw FileError(options.resume, why); };
+    if (checkpoint.snapshot.time > until)
+        refuse(fmt::format("is at time {}, after the end at {}", checkpoint.snapshot.time, until));
+    if (const std::optional<RunRecord>& run = checkpoint.run;
+        run && run->trajectory_bytes > 0 && options.every && *options.every != run->frame_interval)
+        refuse(
+            fmt::format("covers a trajectory with --every {}, not {}", run->frame_interval, *options.every));
+    return checkpoint;
+}
+
+World make_world(const Scene& scene, const RunOptions& options, const std::optional<Checkpoint>& from) {
+    const WorldOptions wanted{.threads = options.threads,
+                              .cell_size = options.cell_size,
+                              .domains = options.domains,
+                              .halo = options.halo};
+    if (!from) return World(scene, wanted);
+    try {
+        return {scene, wanted, from->snapshot};
+    } catch (const SnapshotError& error) {
+        throw FileError(options.resume, error.what());
+    }
+}
+
 int run(const RunOptions& options) {
-    require_distinct(options.scene, {{"--trajectory", options.trajectory},
-                                     {"--events", options.events},
-                                     {"--final", options.final_state},
-                                     {"--picture", options.picture},
-                                     {"--summary", options.summary}});
+    require_distinct_files(options);
     Scene scene = read_scene(options.scene);
     scene.precision = options.precision.value_or(scene.precision);
     const double until = options.until.value_or(scene.until);
-    RunOutputs outputs(options);
+    std::optional<Checkpoint> checkpoint = checkpoint_of(options, until);
+    std::optional<RunOutputs> outputs;
+    if (!checkpoint) outputs.emplace(options, RunRecord{});
     watch_for_interrupts();
-    World world(scene, {.threads = options.threads,
-                        .cell_size = options.cell_size,
-                        .domains = options.domains,
-                        .halo = options.halo});
-    const bool finished = run_world(world, scene, until, options, outputs);
+    World world = make_world(scene, options, checkpoint);
+    std::optional<RunRecord> record;
+    if (checkpoint) {  // the files that it left are not touched before the scene proves to be its own
+        record = checkpoint->run;
+        checkpoint.reset();
+        outputs.emplace(options, record.value_or(RunRecord{}));
+    }
+    const bool finished = run_world(world, scene, until, options, record, *outputs);
     if (finished) return kGood;
     if (!options.quiet) {
         fmt::print(stderr, "carom: interrupted at t = {:.6g} of {:.6g}; the outputs end there\n",
@@ -90,6 +138,23 @@ void add_output_options(CLI::App& command, RunOptions& options) {
     command.add_flag("--quiet", options.quiet, "No progress on standard error")->group(group);
 }
 
+void add_checkpoint_options(CLI::App& command, RunOptions& options) {
+    const char* const group = "Checkpoints";
+    CLI::Option* const checkpoint =
+        command.add_option("--checkpoint", options.checkpoint, "Keep the state here, to go on from later");
+    checkpoint->option_text("FILE")->group(group);
+    command
+        .add_option("--checkpoint-every", options.checkpoint_every,
+                    "Simulated time between two checkpoints (default: a tenth of the run)")
+        ->option_text("DT")
+        ->check(positive_number())
+        ->needs(checkpoint)
+        ->group(group);
+    command.add_option("--resume", options.resume, "Go on from a checkpoint of this scene")
+        ->type_name("FILE")
+        ->group(group);
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, int& status) {
@@ -124,6 +189,7 @@ void add_run_command(CLI::App& app, int& status) {
         ->type_name("H")
         ->check(positive_number());
     add_output_options(*command, *options);
+    add_checkpoint_options(*command, *options);
     command->callback([options, &status] { status = run(*options); });
 }
 

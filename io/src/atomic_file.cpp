@@ -12,16 +12,14 @@
 
 #include <fmt/format.h>
 
+#include "posix_write.hpp"
+
 namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr mode_t kReadWriteAll = 0666;  // the umask takes away what the user does not want
-
-std::string reason(int error_number) {
-    return std::generic_category().message(error_number);
-}
 
 /// Opens a new file beside the target under a name that nobody has.
 int open_beside(const fs::path& target, fs::path& temporary) {
@@ -34,6 +32,17 @@ int open_beside(const fs::path& target, fs::path& temporary) {
         if (descriptor >= 0 || errno != EEXIST) return descriptor;
     }
     return -1;
+}
+
+/// Forces the folder's list of names to the disk, so that a rename outlives a power cut; gives the errno. A
+/// folder that must not be read, or that its file system does not force, is left to itself.
+int sync_folder_of(const fs::path& file) {
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return 0;
+    const int error = ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
+    ::close(descriptor);
+    return error;
 }
 
 }  // namespace
@@ -77,14 +86,7 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
 
 void AtomicFile::write(std::string_view text) {
     if (descriptor_ < 0) fail("written", EBADF);
-    while (!text.empty()) {
-        const ssize_t written = ::write(descriptor_, text.data(), text.size());
-        if (written < 0) {
-            if (errno == EINTR) continue;
-            fail("written", errno);
-        }
-        text.remove_prefix(static_cast<std::size_t>(written));
-    }
+    if (const int error = write_all(descriptor_, text); error != 0) fail("written", error);
 }
 
 void AtomicFile::commit() {
@@ -95,6 +97,7 @@ void AtomicFile::commit() {
     if (temporary_.empty()) return;
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("put in its place", errno);
     temporary_.clear();
+    if (const int error = sync_folder_of(target_); error != 0) fail("put in its place for good", error);
 }
 
 void AtomicFile::fail(const char* action, int error_number) {

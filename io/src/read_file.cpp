@@ -5,15 +5,16 @@
 #include <cerrno>
 #include <cstdio>
 #include <memory>
-#include <system_error>
 
 #include <carom/io/atomic_file.hpp>
+
+#include "posix_write.hpp"
 
 namespace carom {
 
 std::string read_file(const std::filesystem::path& path) {
     const auto fail = [&path](int error_number) {
-        return FileError(path, "cannot be read: " + std::generic_category().message(error_number));
+        return FileError(path, "cannot be read: " + reason(error_number));
     };
     const auto close = [](std::FILE* file) { std::fclose(file); };
     const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);

@@ -1,12 +1,7 @@
 // Extended XYZ, writing.
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <iterator>
-#include <system_error>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -91,31 +86,11 @@ void write_xyz(const std::filesystem::path& path, double time, std::span<const B
     file.commit();
 }
 
-XyzTrajectory::XyzTrajectory(const std::filesystem::path& path, Start start) : path_(path) {
-    constexpr mode_t kReadWriteAll = 0666;
-    descriptor_ =
-        ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (start == Start::kEmpty ? O_TRUNC : O_APPEND),
-               kReadWriteAll);
-    if (descriptor_ < 0)
-        throw FileError(path, "cannot be written: " + std::generic_category().message(errno));
-}
-
-XyzTrajectory::~XyzTrajectory() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 void XyzTrajectory::write(double time, std::span<const Ball> balls, const std::optional<Domain>& domain,
                           Precision precision) {
     text_.clear();
     append_xyz(text_, time, balls, domain, precision);
-    std::string_view rest = text_;
-    while (!rest.empty()) {
-        const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0)
-            throw FileError(path_, "cannot be written: " + std::generic_category().message(errno));
-        rest.remove_prefix(static_cast<std::size_t>(written));
-    }
+    file_.write(text_);
 }
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace carom {
 namespace {
@@ -26,16 +27,17 @@ int choose_domains(const Bodies& bodies, const Executor& executor, int wanted) {
 /// All balls in one loop.
 class SerialEngine final : public Engine {
  public:
-    SerialEngine(const Bodies& bodies, std::span<const Ball> balls, const Executor& executor)
-        : Engine(bodies), executor_(executor), loop_(make_event_loop(bodies)) {
+    SerialEngine(const Bodies& bodies, const EngineStart& start, const Executor& executor)
+        : Engine(bodies, start), executor_(executor), loop_(make_event_loop(bodies)) {
         loop_->on_note = [this](const CollisionNote& note, const Collision* collision) {
             count(note);
             if (listener_ && collision != nullptr) listener_(*collision);
         };
-        loop_->clear({bodies.grid, whole(bodies.grid.x), whole(bodies.grid.y), 0}, {});
-        const BallExtra extra;
-        for (const BallRecord& record : records_at_start(bodies, balls)) loop_->add(record, &extra, true);
-        if (bodies.accelerates_each()) loop_->renew_field({});
+        loop_->clear({bodies.grid, whole(bodies.grid.x), whole(bodies.grid.y), 0}, start.now);
+        for (std::size_t k = 0; k < start.records.size(); ++k)
+            loop_->add(start.records[k], start.extras.empty() ? nullptr : &start.extras[k], true);
+        loop_->events = counts_.events;
+        if (bodies.accelerates_each() && !start.has_field) loop_->renew_field(start.now);
         loop_->predict_all(&executor_);
     }
 
@@ -54,6 +56,15 @@ class SerialEngine final : public Engine {
                 states[loop_->id(i)] = loop_->state(i, t);
         });
     }
+    void save(const Time&, Snapshot& snapshot) const override {
+        BallSaver saver(bodies_, snapshot);
+        executor_.for_ranges(loop_->size(), 4096, [&](std::size_t first, std::size_t last) {
+            for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
+                const BallRecord& r = loop_->records()[i];
+                saver.save(r.id, r.anchor, r.periods, loop_->extra(i));
+            }
+        });
+    }
     void audit(std::vector<Violation>& found) const override { loop_->audit(found); }
     void listen(std::function<void(const Collision&)> listener) override {
         listener_ = std::move(listener);
@@ -67,8 +78,9 @@ class SerialEngine final : public Engine {
 
 }  // namespace
 
-Engine::Engine(const Bodies& bodies) : bodies_(bodies) {
+Engine::Engine(const Bodies& bodies, const EngineStart& start) : bodies_(bodies), counts_(start.counts) {
     virial_.set_scale(bodies.physics.typical_virial);
+    virial_.restore(start.virial);
 }
 
 void Engine::count(const CollisionNote& note) {
@@ -80,28 +92,13 @@ void Engine::count(const CollisionNote& note) {
     }
 }
 
-std::vector<BallRecord> records_at_start(const Bodies& bodies, std::span<const Ball> balls) {
-    std::vector<BallRecord> records;
-    records.reserve(bodies.moving);
-    for (std::uint32_t i = 0; i < bodies.count; ++i) {
-        if (bodies.fixes(i)) continue;
-        const Ball& b = balls[i];
-        BallRecord& r = records.emplace_back();
-        const Vec2 x = bodies.held_position(b.position, r.periods);
-        const Vec2 v = bodies.held_velocity(b.velocity);
-        r.anchor = {x.x(), x.y(), v.x(), v.y(), {}, 0, 0, bodies.grid.coordinates(x)};
-        r.id = i;
-    }
-    return records;
-}
-
-std::unique_ptr<Engine> make_engine(const Bodies& bodies, std::span<const Ball> balls,
-                                    const Executor& executor, const WorldOptions& options) {
+std::unique_ptr<Engine> make_engine(const Bodies& bodies, EngineStart start, const Executor& executor,
+                                    const WorldOptions& options) {
     const int domains = choose_domains(bodies, executor, options.domains);
-    if (domains <= 1) return std::make_unique<SerialEngine>(bodies, balls, executor);
+    if (domains <= 1) return std::make_unique<SerialEngine>(bodies, start, executor);
     // A halo as wide as the plane holds all there is.
     const int halo = std::min(options.halo, std::max(bodies.grid.x.count(), bodies.grid.y.count()));
-    return make_windowed_engine(bodies, balls, executor, domains, halo);
+    return make_windowed_engine(bodies, std::move(start), executor, domains, halo);
 }
 
 }  // namespace carom

@@ -9,6 +9,7 @@
 
 #include "ball_record.hpp"
 #include "bodies.hpp"
+#include "engine_state.hpp"
 #include "event_loop.hpp"
 #include "executor.hpp"
 #include "ordered_sum.hpp"
@@ -26,6 +27,8 @@ class Engine {
     virtual void renew_field(const Time& t) = 0;
     /// The moving balls' states at `t`, the time advanced to last: states[id].
     virtual void read(const Time& t, std::span<BallState> states) const = 0;
+    /// The same balls as they were left by their last events until `t`.
+    virtual void save(const Time& t, Snapshot& snapshot) const = 0;
     /// Every broken rule of the loops.
     virtual void audit(std::vector<Violation>& found) const = 0;
     /// Collisions are told from the time advanced to last on; an empty function turns it off.
@@ -35,9 +38,10 @@ class Engine {
     [[nodiscard]] virtual double working_seconds() const { return 0; }
     [[nodiscard]] const Counts& counts() const { return counts_; }
     [[nodiscard]] double virial() const { return virial_.value(); }
+    [[nodiscard]] SavedSum saved_virial() const { return virial_.saved(); }
 
  protected:
-    explicit Engine(const Bodies& bodies);
+    Engine(const Bodies& bodies, const EngineStart& start);
     void count(const CollisionNote& note);
 
     const Bodies& bodies_;
@@ -46,15 +50,11 @@ class Engine {
     OrderedSum virial_;
 };
 
-/// `balls` are the scene's at time 0. `bodies` and `executor` must outlive the engine. `domains` 0 lets the
-/// engine choose.
-[[nodiscard]] std::unique_ptr<Engine> make_engine(const Bodies& bodies, std::span<const Ball> balls,
+/// `bodies` and `executor` must outlive the engine. `domains` 0 lets the engine choose.
+[[nodiscard]] std::unique_ptr<Engine> make_engine(const Bodies& bodies, EngineStart start,
                                                   const Executor& executor, const WorldOptions& options);
 
-/// The moving balls at time 0, without predictions.
-[[nodiscard]] std::vector<BallRecord> records_at_start(const Bodies& bodies, std::span<const Ball> balls);
-
-[[nodiscard]] std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, std::span<const Ball> balls,
+[[nodiscard]] std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, EngineStart start,
                                                            const Executor& executor, int domains, int halo);
 
 }  // namespace carom

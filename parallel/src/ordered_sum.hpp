@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 
+#include <carom/core/snapshot.hpp>
+
 namespace carom {
 
 /// Adds doubles as integers of 128 bits, so that any order and any split gives the same bits. A term is cut
@@ -34,6 +36,14 @@ class OrderedSum {
     [[nodiscard]] double value() const {
         if (is_lost_) return std::numeric_limits<double>::quiet_NaN();
         return std::ldexp(static_cast<double>(sum_), -exponent_);
+    }
+
+    [[nodiscard]] SavedSum saved() const {
+        return {static_cast<std::int64_t>(sum_ >> 64), static_cast<std::uint64_t>(sum_), is_lost_};
+    }
+    void restore(const SavedSum& saved) {
+        sum_ = static_cast<Integer>(saved.high) * (Integer{1} << 64) + saved.low;
+        is_lost_ = saved.is_lost;
     }
 
  private:

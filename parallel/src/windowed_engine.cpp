@@ -27,18 +27,19 @@ constexpr int kWindowsBetweenSplits = 16;
 
 }  // namespace
 
-WindowedEngine::WindowedEngine(const Bodies& bodies, std::span<const Ball> balls, const Executor& executor,
-                               int domains, int halo)
-    : Engine(bodies),
+WindowedEngine::WindowedEngine(const Bodies& bodies, EngineStart start, const Executor& executor, int domains,
+                               int halo)
+    : Engine(bodies, start),
       executor_(executor),
       wanted_domains_(domains),
       halo_(halo > 0 ? halo : kHalo),
+      now_(start.now),
+      window_start_(start.now),
       window_length_(bodies.physics.clock.epoch_length() * kFirstWindow),
       growth_(kFirstGrowth) {
-    std::vector<BallRecord> records = records_at_start(bodies, balls);
-    std::vector<BallExtra> extras(bodies.needs_extras() ? records.size() : 0);
-    split(std::move(records), std::move(extras), whole(bodies.grid.x), whole(bodies.grid.y), domains);
-    predict_anew(bodies.accelerates_each());
+    split(std::move(start.records), std::move(start.extras), whole(bodies.grid.x), whole(bodies.grid.y),
+          domains);
+    predict_anew(bodies.accelerates_each() && !start.has_field);
 }
 
 /// Runs every domain to `window_end` and repairs those that disagree with their neighbours: again, with a
@@ -203,9 +204,9 @@ void WindowedEngine::tune(double length, bool agreed) {
     window_length_ = std::max(least, std::clamp(wanted, length / 2, std::max(2 * length, window_length_)));
 }
 
-std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, std::span<const Ball> balls,
+std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, EngineStart start,
                                              const Executor& executor, int domains, int halo) {
-    return std::make_unique<WindowedEngine>(bodies, balls, executor, domains, halo);
+    return std::make_unique<WindowedEngine>(bodies, std::move(start), executor, domains, halo);
 }
 
 }  // namespace carom

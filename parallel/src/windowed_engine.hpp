@@ -31,12 +31,12 @@ inline constexpr int kMostRepairs = 2;
 
 class WindowedEngine final : public Engine {
  public:
-    WindowedEngine(const Bodies& bodies, std::span<const Ball> balls, const Executor& executor, int domains,
-                   int halo);
+    WindowedEngine(const Bodies& bodies, EngineStart start, const Executor& executor, int domains, int halo);
 
     void advance_to(const Time& end, const Time& horizon) override;
     void renew_field(const Time& t) override;
     void read(const Time& t, std::span<BallState> states) const override;
+    void save(const Time& t, Snapshot& snapshot) const override;
     void audit(std::vector<Violation>& found) const override;
     void listen(std::function<void(const Collision&)> listener) override;
     [[nodiscard]] double working_seconds() const override {
@@ -101,6 +101,13 @@ class WindowedEngine final : public Engine {
         return in_window_ ? Held{d.results, d.result_extras} : Held{d.records, d.extras};
     }
     void order_simultaneous(std::span<Told> notes) const;
+    /// A ball as it was left by its last event until some time.
+    struct Past {
+        Anchor anchor;
+        Periods periods;
+        bool is_of_window;  ///< whether that event lies within the window
+    };
+    [[nodiscard]] Past past_of(const DomainState& d, std::size_t i, const Time& t) const;
     void tune(double length, bool agreed);
 
     mutable std::atomic<std::chrono::steady_clock::rep> working_time_ = 0;

@@ -80,23 +80,52 @@ void WindowedEngine::renew_field(const Time& t) {
     predict_anew(true);
 }
 
+WindowedEngine::Past WindowedEngine::past_of(const DomainState& d, std::size_t i, const Time& t) const {
+    const BallRecord& r = held(d).records[i];
+    Past past{r.anchor, r.periods, false};
+    if (!in_window_) return past;
+    std::uint32_t o = d.last_overwritten[i];
+    for (; past.anchor.time > t && o != kNowhere; o = d.overwritten[o].previous) {
+        const OverwrittenAnchor& before = d.overwritten[o];
+        past.anchor = {before.x, before.y, before.vx, before.vy, before.time, 0, 0, {}};
+        past.periods = before.periods;
+    }
+    past.is_of_window = o != kNowhere;
+    return past;
+}
+
 void WindowedEngine::read(const Time& t, std::span<BallState> states) const {
     for_each_domain([&](std::size_t k) {
         const DomainState& d = domains_[k];
         const auto& [records, extras] = held(d);
         for (std::size_t i = 0; i < records.size(); ++i) {
-            Anchor anchor = records[i].anchor;
-            Periods periods = records[i].periods;
-            if (in_window_) {
-                for (std::uint32_t o = d.last_overwritten[i]; anchor.time > t && o != kNowhere;
-                     o = d.overwritten[o].previous) {
-                    const OverwrittenAnchor& before = d.overwritten[o];
-                    anchor = {before.x, before.y, before.vx, before.vy, before.time, 0, 0, {}};
-                    periods = before.periods;
-                }
-            }
-            states[records[i].id] = state_at(bodies_, anchor, periods,
+            const Past past = past_of(d, i, t);
+            states[records[i].id] = state_at(bodies_, past.anchor, past.periods,
                                              extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, t);
+        }
+    });
+}
+
+/// An overwritten anchor does not tell the last collision; but within a window every event is one, and what
+/// was before it the records of the window's start know.
+void WindowedEngine::save(const Time& t, Snapshot& snapshot) const {
+    std::vector<Time> before_window(in_window_ && bodies_.physics.contact_time > 0 ? bodies_.count : 0);
+    for (const DomainState& d : domains_)
+        for (std::size_t k = 0; !before_window.empty() && k < d.records.size(); ++k)
+            before_window[d.records[k].id] = d.extras[k].last_collision;
+    // The window at hand is gone through anew from there; what it took is counted all the same.
+    for (const DomainState& d : domains_)
+        if (in_window_) snapshot.counts.events += d.events;
+    BallSaver saver(bodies_, snapshot);
+    for_each_domain([&](std::size_t k) {
+        const DomainState& d = domains_[k];
+        const auto& [records, extras] = held(d);
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            const Past past = past_of(d, i, t);
+            BallExtra extra = extras.empty() ? BallExtra{} : extras[i];
+            if (!before_window.empty())
+                extra.last_collision = past.is_of_window ? past.anchor.time : before_window[records[i].id];
+            saver.save(records[i].id, past.anchor, past.periods, extra);
         }
     });
 }

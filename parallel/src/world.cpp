@@ -2,7 +2,6 @@
 #include <carom/parallel/world.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -15,7 +14,9 @@
 
 #include "engine.hpp"
 #include "executor.hpp"
+#include "hash.hpp"
 #include "physics.hpp"
+#include "scene_hash.hpp"
 
 namespace carom {
 namespace {
@@ -71,35 +72,69 @@ std::string shown(double number) {
     return text.str();
 }
 
-/// A mixing step of 64 bits (the finaliser of MurmurHash3).
-std::uint64_t mix(std::uint64_t h) {
-    h ^= h >> 33;
-    h *= 0xff51afd7ed558ccdULL;
-    h ^= h >> 33;
-    h *= 0xc4ceb9fe1a85ec53ULL;
-    return h ^ (h >> 33);
-}
-
 }  // namespace
 
 class World::State {
  public:
-    State(const Scene& scene, const WorldOptions& options) : State(scene, options, place_checked(scene)) {}
-    State(const Scene& scene, const WorldOptions& options, const std::vector<Ball>& balls)
-        : State(scene, options, balls, derive_physics(scene, balls)) {}
-    State(const Scene& scene, const WorldOptions& options, const std::vector<Ball>& balls,
-          const Physics& physics)
-        : executor(options.threads),
+    /// From the scene's beginning where `snapshot` is null.
+    State(const Scene& scene, const WorldOptions& options, const Snapshot* snapshot)
+        : State(scene, options, snapshot, place_checked(scene)) {}
+    State(const Scene& scene, const WorldOptions& options, const Snapshot* snapshot,
+          const std::vector<Ball>& balls)
+        : State(scene, options, snapshot, balls, derive_physics(scene, balls)) {}
+    State(const Scene& scene, const WorldOptions& options, const Snapshot* snapshot,
+          const std::vector<Ball>& balls, const Physics& physics)
+        : wanted(options),
+          executor(options.threads),
           field_interval(scene.field_interval),
           allows_overlap(scene.allows_overlap),
           in_equilibrium(!physics.loses_energy && is_free(scene, balls)),
           bodies(physics, balls, scene.walls, scene.attractors,
-                 choose_grid(physics.domain, balls.size(), listed_diameter(balls), options.cell_size)) {
-        engine = make_engine(bodies, balls, executor, options);
+                 choose_grid(physics.domain, balls.size(), listed_diameter(balls), options.cell_size)),
+          hash_of_scene(carom::scene_hash(scene, physics, balls, executor)) {
+        if (snapshot != nullptr)
+            restore(*snapshot);
+        else
+            engine = make_engine(bodies, start_at_zero(bodies, balls), executor, options);
         for (std::uint32_t i = 0; i < bodies.count; ++i)
             if (bodies.fixes(i))
                 fixed_states.emplace_back(i, BallState{bodies.fixed[i], balls[i].velocity, bodies.fixed[i]});
-        if (allows_overlap) overlap_at_start = max_overlap();
+        if (allows_overlap) overlap_at_start = carom::max_overlap(balls, surroundings());
+    }
+
+    [[nodiscard]] Snapshot snapshot() const {
+        Snapshot s;
+        s.scene_hash = hash_of_scene;
+        s.time = seconds;
+        s.field_updates = field_updates;
+        s.counts = engine->counts();
+        s.virial = engine->saved_virial();
+        engine->save(now, s);
+        return s;
+    }
+
+    void restore(const Snapshot& s) {
+        check(s);
+        std::unique_ptr<Engine> restored =
+            make_engine(bodies, start_from(bodies, s, executor), executor, wanted);
+        if (listener) restored->listen(listener);
+        engine = std::move(restored);
+        field_updates = s.field_updates;
+        seconds = s.time;
+        now = bodies.physics.clock.from_seconds(seconds);
+        is_read = false;
+    }
+
+    void check(const Snapshot& s) const {
+        if (s.method != "event") throw SnapshotError("is of the method '" + s.method + "'");
+        if (s.scene_hash != hash_of_scene) throw SnapshotError("is of another scene");
+        if (!(s.time >= 0) || bodies.physics.clock.from_seconds(s.time) == kNever)
+            throw SnapshotError("is at no time that the scene comes to");
+        const bool fits = bodies.attractors.empty()
+                              ? s.field_updates == 0
+                              : double(s.field_updates) * field_interval <= s.time &&
+                                    s.time < double(s.field_updates + 1) * field_interval;
+        if (!fits) throw SnapshotError("has another number of field updates than its time");
     }
 
     [[nodiscard]] std::size_t size() const { return bodies.count; }
@@ -181,12 +216,13 @@ class World::State {
         return out;
     }
 
-    [[nodiscard]] double max_overlap() const {
-        Scene surroundings;
-        surroundings.domain = bodies.physics.domain;
-        surroundings.walls = bodies.walls;
-        return carom::max_overlap(balls(), surroundings);
+    [[nodiscard]] Scene surroundings() const {
+        Scene scene;
+        scene.domain = bodies.physics.domain;
+        scene.walls = bodies.walls;
+        return scene;
     }
+    [[nodiscard]] double max_overlap() const { return carom::max_overlap(balls(), surroundings()); }
 
     /// How deep rounding alone may let two bodies overlap, in units of their radii's sum.
     [[nodiscard]] double rounding_of_overlaps() const {
@@ -206,6 +242,7 @@ class World::State {
         return scene.gravity.isZero(0) && scene.attractors.empty() &&
                std::ranges::all_of(balls, [](const Ball& b) { return b.acceleration.isZero(0); });
     }
+    WorldOptions wanted;
     Executor executor;
     double field_interval;
     bool allows_overlap;
@@ -213,6 +250,8 @@ class World::State {
     std::uint64_t field_updates = 0;
     bool in_equilibrium;  // neither losses nor forces, so that one temperature holds throughout
     Bodies bodies;
+    std::uint64_t hash_of_scene;
+    std::function<void(const Collision&)> listener;
     std::unique_ptr<Engine> engine;
     std::vector<std::pair<std::uint32_t, BallState>> fixed_states;
     Time now;
@@ -223,7 +262,9 @@ class World::State {
 };
 
 World::World(const Scene& scene, const WorldOptions& options)
-    : state_(std::make_unique<State>(scene, options)) {}
+    : state_(std::make_unique<State>(scene, options, nullptr)) {}
+World::World(const Scene& scene, const WorldOptions& options, const Snapshot& snapshot)
+    : state_(std::make_unique<State>(scene, options, &snapshot)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -336,18 +377,15 @@ double World::max_overlap() const {
 
 std::uint64_t World::state_hash() const {
     const std::vector<BallState>& states = state_->states();
-    return state_->executor.sum(
-        ball_count(), std::uint64_t{0}, [&states](std::size_t first, std::size_t last) {
-            std::uint64_t sum = 0;
-            for (std::size_t i = first; i < last; ++i) {
-                const BallState& b = states[i];
-                std::uint64_t h = mix(i + 1);
-                for (const double x : {b.position.x(), b.position.y(), b.velocity.x(), b.velocity.y()})
-                    h = mix(h ^ std::bit_cast<std::uint64_t>(x)) + h;
-                sum += h;
-            }
-            return sum;
-        });
+    return state_->executor.sum(ball_count(), std::uint64_t{0},
+                                [&states](std::size_t first, std::size_t last) {
+                                    std::uint64_t sum = 0;
+                                    for (std::size_t i = first; i < last; ++i) {
+                                        const BallState& b = states[i];
+                                        sum += (Hash{mix(i + 1)} << b.position << b.velocity).value;
+                                    }
+                                    return sum;
+                                });
 }
 
 std::vector<Violation> World::validate() const {
@@ -360,8 +398,21 @@ std::vector<Violation> World::validate() const {
     return found;
 }
 
+std::uint64_t World::scene_hash() const {
+    return state_->hash_of_scene;
+}
+
+Snapshot World::snapshot() const {
+    return state_->snapshot();
+}
+
+void World::restore(const Snapshot& snapshot) {
+    state_->restore(snapshot);
+}
+
 void World::on_collision(std::function<void(const Collision&)> listener) {
-    state_->engine->listen(std::move(listener));
+    state_->listener = std::move(listener);
+    state_->engine->listen(state_->listener);
 }
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 #include "program.hpp"
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +14,8 @@
 namespace carom::testing_program {
 
 namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
 
 Folder::Folder() {
     std::string pattern = (fs::temp_directory_path() / "carom-test-XXXXXX").string();
@@ -49,6 +52,10 @@ std::vector<std::string> Folder::names() const {
 pid_t Folder::start(const std::vector<std::string>& arguments) const {
     std::vector<std::string> words = {CAROM_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
+    return start_words(words);
+}
+
+pid_t Folder::start_words(std::vector<std::string> words) const {
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
@@ -80,6 +87,18 @@ Result Folder::finish(pid_t process) const {
 
 Result Folder::run(const std::vector<std::string>& arguments) const {
     return finish(start(arguments));
+}
+
+Result Folder::run_shell(const std::string& line) const {
+    return finish(start_words({"/bin/sh", "-c", line, CAROM_PROGRAM}));
+}
+
+void expect_one_error(const Result& result, int status, const std::string& message) {
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, StartsWith("carom: error: "));
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
 }
 
 std::string summary_value(const std::string& summary, const std::string& key) {

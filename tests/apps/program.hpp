@@ -32,14 +32,21 @@ class Folder {
     /// Runs `carom ARGUMENTS...` to its end. Paths are the caller's business; the working directory is the
     /// folder.
     [[nodiscard]] Result run(const std::vector<std::string>& arguments) const;
-    /// Starts it; its outputs go to the files "out" and "err".
+    /// Runs a line of shell, in which "$0" is the program, to its end.
+    [[nodiscard]] Result run_shell(const std::string& line) const;
+    /// Starts the program; its outputs go to the files "out" and "err".
     [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const;
     /// Waits for what start() gave.
     [[nodiscard]] Result finish(pid_t process) const;
 
  private:
+    [[nodiscard]] pid_t start_words(std::vector<std::string> words) const;
+
     std::filesystem::path folder_;
 };
+
+/// One line on standard error, nothing on standard output, and the status.
+void expect_one_error(const Result& result, int status, const std::string& message);
 
 /// The value of a key in the program's summary, as its JSON text; fails the test where there is none.
 [[nodiscard]] std::string summary_value(const std::string& summary, const std::string& key);

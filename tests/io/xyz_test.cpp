@@ -2,6 +2,7 @@
 #include <carom/io/xyz.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -240,7 +241,7 @@ TEST(Xyz, TrajectoriesGrowByFrames) {
     }
     expect_same(frames[1], read_xyz(path).balls);
     {
-        XyzTrajectory trajectory(path, XyzTrajectory::Start::kAppend);
+        XyzTrajectory trajectory(path, std::filesystem::file_size(path));
         trajectory.write(2, frames[2], std::nullopt);
         trajectory.write(3, frames[3], std::nullopt);
     }

@@ -31,7 +31,7 @@ class AtomicFile {
 
     /// Appends. Large pieces are cheap, small ones cost a system call each.
     void write(std::string_view text);
-    /// Forces the content to the disk and renames. Nothing may be written afterwards.
+    /// Forces the content to the disk, renames, and forces the folder. Nothing may be written afterwards.
     void commit();
 
  private:

@@ -3,15 +3,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include <carom/core/vector.hpp>
 #include <carom/io/atomic_file.hpp>
+#include <carom/io/growing_file.hpp>
 
 namespace carom {
 
-/// Writes `time,kind,i,j,x,y,nx,ny,impulse`. The file appears under its name with commit(). Throws FileError.
-/// One thread at a time.
+/// Writes `time,kind,i,j,x,y,nx,ny,impulse`. Throws FileError. One thread at a time.
 class EventsCsv {
  public:
     enum class Kind : std::uint8_t { kBall, kWall };
@@ -26,13 +28,23 @@ class EventsCsv {
         double impulse;
     };
 
+    /// A file that appears under its name with commit().
     explicit EventsCsv(const std::filesystem::path& path);
+    /// A file that grows, from the start or, where `kept` is not 0, after its first `kept` bytes: see
+    /// GrowingFile.
+    EventsCsv(const std::filesystem::path& path, std::uint64_t kept);
     /// Numbers have as many digits as it takes to read back the same bits. Rows are buffered.
     void write(const Row& row);
     void commit();
+    /// Of a file that grows: forces the rows to the disk and gives the bytes that they take.
+    std::uint64_t sync();
 
  private:
-    AtomicFile file_;
+    void put_header();
+    void flush();
+
+    std::optional<AtomicFile> whole_;
+    std::unique_ptr<GrowingFile> growing_;  // where that is not
     std::string buffer_;
 };
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <carom/core/scene.hpp>
-#include <carom/io/atomic_file.hpp>
+#include <carom/io/growing_file.hpp>
 
 namespace carom {
 
@@ -54,21 +54,22 @@ void write_xyz(const std::filesystem::path& path, double time, std::span<const B
 /// A file that grows by a frame at a time and can be read while it does.
 class XyzTrajectory {
  public:
-    enum class Start : std::uint8_t { kEmpty, kAppend };
-
-    /// Empties the file, or goes on at its end. Throws FileError, as do the others.
-    explicit XyzTrajectory(const std::filesystem::path& path, Start start = Start::kEmpty);
-    ~XyzTrajectory();
-    XyzTrajectory(const XyzTrajectory&) = delete;
-    XyzTrajectory& operator=(const XyzTrajectory&) = delete;
+    /// Empties the file. Throws FileError, as do the others.
+    explicit XyzTrajectory(const std::filesystem::path& path) : file_(path) {}
+    /// Goes on after the frames in the first `kept` bytes, see GrowingFile.
+    XyzTrajectory(const std::filesystem::path& path, std::uint64_t kept) : file_(path, kept) {}
 
     void write(double time, std::span<const Ball> balls, const std::optional<Domain>& domain,
                Precision precision = Precision::kDouble);
+    /// Forces the frames to the disk; gives the bytes that they take.
+    std::uint64_t sync() {
+        file_.sync();
+        return file_.size();
+    }
 
  private:
-    std::filesystem::path path_;
+    GrowingFile file_;
     std::string text_;
-    int descriptor_ = -1;
 };
 
 }  // namespace carom

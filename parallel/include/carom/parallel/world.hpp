@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <carom/core/scene.hpp>
+#include <carom/core/snapshot.hpp>
 
 namespace carom {
 
@@ -34,15 +35,6 @@ struct WorldOptions {
     int halo = 0;     ///< cells around a domain that it simulates as well; 0: chosen. Speed only
 };
 
-struct Counts {
-    std::uint64_t ball_collisions = 0;
-    std::uint64_t wall_collisions = 0;
-    std::uint64_t events = 0;             ///< collisions, cell crossings, stale predictions and field updates
-    std::uint64_t windows = 0;            ///< stretches of time through which a domain went on its own
-    std::uint64_t window_retries = 0;     ///< of them those that a domain had to go through again
-    std::uint64_t copied_collisions = 0;  ///< that a domain resolved for its halo, on top of all others
-};
-
 /// Something that must not be: what, where, by how much.
 struct Violation {
     std::string what;
@@ -59,6 +51,8 @@ class World {
     /// Checks the scene, places its fills, finds every ball's first event. Throws SceneError on a scene that
     /// cannot be simulated.
     explicit World(const Scene& scene, const WorldOptions& options = {});
+    /// The same scene as a snapshot has it, to go on from there. Throws SnapshotError as restore() does.
+    World(const Scene& scene, const WorldOptions& options, const Snapshot& snapshot);
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
@@ -108,6 +102,17 @@ class World {
     [[nodiscard]] std::uint64_t state_hash() const;
     /// Every broken invariant; empty in a sound world. Costs a pass over all pairs of neighbours.
     [[nodiscard]] std::vector<Violation> validate() const;
+
+    /// Equal for scenes with the same course: of all but the name and the end.
+    [[nodiscard]] std::uint64_t scene_hash() const;
+    /// All that the future depends on, at time(). What is gone on from it is what would have been, to the
+    /// bit, for any options on either side: states, collisions and all that follows from them. Counts of the
+    /// work alone (events, windows, retries, copies) go on from here but depend on how the work is done.
+    [[nodiscard]] Snapshot snapshot() const;
+    /// Puts the world where the snapshot has it, earlier or later. Throws SnapshotError where that is of
+    /// another scene or method or holds what cannot be; the world stays as it was. Not to be called from a
+    /// listener.
+    void restore(const Snapshot& snapshot);
 
     /// Called for every collision in the order of events. An empty function turns it off.
     void on_collision(std::function<void(const Collision&)> listener);
