@@ -4,9 +4,7 @@
 // An iteration advances by one mean free time, in which a ball has one collision (a collision counts once,
 // for two balls). `items_per_second` is collisions a second.
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <iterator>
 
 #include <benchmark/benchmark.h>
 #include <carom/parallel/world.hpp>
