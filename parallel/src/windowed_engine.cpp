@@ -35,9 +35,9 @@ WindowedEngine::WindowedEngine(const Bodies& bodies, std::span<const Ball> balls
       halo_(halo > 0 ? halo : kHalo),
       window_length_(bodies.physics.clock.epoch_length() * kFirstWindow),
       growth_(kFirstGrowth) {
-    std::vector<BallRecord> records = records_at_start(bodies, balls);
-    std::vector<BallExtra> extras(bodies.needs_extras() ? records.size() : 0);
-    split(std::move(records), std::move(extras), whole(bodies.grid.x), whole(bodies.grid.y), domains);
+    const std::vector<BallRecord> records = records_at_start(bodies, balls);
+    const std::vector<BallExtra> extras(bodies.needs_extras() ? records.size() : 0);
+    split(records, extras, whole(bodies.grid.x), whole(bodies.grid.y), domains);
     predict_anew(bodies.accelerates_each());
 }
 
