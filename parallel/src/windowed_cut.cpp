@@ -52,8 +52,17 @@ void WindowedEngine::cut(std::span<BallInCell> balls, Span x, Span y, int parts,
                double(before) + double(counts[static_cast<std::size_t>(cut_at - occupied.first)]) / 2 < share)
             before += counts[static_cast<std::size_t>(cut_at++ - occupied.first)];
 
-        std::stable_partition(balls.begin(), balls.end(),
-                              [&](const BallInCell& b) { return b.cell.*axis < cut_at; });
+        std::vector<BallInCell> beyond;
+        beyond.reserve(balls.size() - before);
+        auto kept = balls.begin();
+        for (const BallInCell& b : balls) {
+            if (b.cell.*axis < cut_at)
+                *kept++ = b;
+            else
+                beyond.push_back(b);
+        }
+        std::ranges::copy(beyond, kept);
+        beyond = {};
         Span& side = across ? x : y;
         const Span lower{side.first, cut_at};
         const Span upper{cut_at, side.last};
