@@ -91,7 +91,7 @@ int validate(const std::string& path) {
         row("domain", domain_text(scene)) + row("packing", packing_text(scene, scene.balls)) +
         row("gravity", fmt::format("({:.6g}, {:.6g})", scene.gravity.x(), scene.gravity.y())) +
         row("precision", name_of(scene.precision)) + row("contact time", contact_text(world.contact_time())) +
-        row("until", fmt::format("{:.6g}", scene.until)));
+        row("kernel", describe(world.kernel())) + row("until", fmt::format("{:.6g}", scene.until)));
     return kGood;
 }
 

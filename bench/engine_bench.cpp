@@ -1,12 +1,10 @@
-// The engine on gases: collisions a second by size, packing and threads, the price of features and short
-// frames.
+// The engine on gases: collisions a second by size, packing and threads, and short frames. What features
+// cost is carom_price's.
 //
 // An iteration advances by one mean free time, in which a ball has one collision (a collision counts once,
 // for two balls). `items_per_second` is collisions a second.
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <iterator>
 
 #include <benchmark/benchmark.h>
 #include <carom/parallel/world.hpp>
@@ -61,77 +59,6 @@ BENCHMARK(engine_gas)
     ->Iterations(5)
     ->ArgNames({"balls", "packing%", "threads"})
     ->ArgsProduct({{1000, 10000, 100000, 1000000}, {20, 50, 70}, {1, 0}});
-
-// What a feature costs: a gas of 20,000 balls at packing 0.3 with one feature more, against `nothing`.
-struct Feature {
-    const char* name;
-    void (*add)(Scene&, Domain&);
-};
-
-void add_nothing(Scene&, Domain&) {}
-void mix_sizes(Scene& scene, Domain&) {
-    scene.fills[0].radius_min = scene.fills[0].radius_max / 2;
-}
-void lose_energy(Scene& scene, Domain&) {
-    scene.fills[0].restitution = 0.99;
-}
-void enclose(Scene&, Domain& domain) {
-    domain.boundary = {Boundary::kWall, Boundary::kWall};
-}
-
-// Weak, so that the gas stays nearly even: m g h over the whole height is a tenth of kT.
-void enclose_and_pull(Scene& scene, Domain& domain) {
-    enclose(scene, domain);
-    scene.gravity = {0, -0.1 / domain.box.max.y()};
-}
-
-void enclose_and_attract(Scene& scene, Domain& domain) {
-    enclose(scene, domain);
-    const Vec2 centre = domain.box.max / 2;
-    scene.attractors.push_back({centre, 0.1, centre.x() / 4});
-    scene.field_interval = mean_free_time(0.3) / 2;
-}
-
-// A hundred segments of many slants, spread over the box; the fill keeps clear of them.
-void add_walls(Scene& scene, Domain& domain) {
-    constexpr int kAcross = 10;
-    const double pitch = domain.box.max.x() / kAcross;
-    for (int row = 0; row < kAcross; ++row) {
-        for (int column = 0; column < kAcross; ++column) {
-            const double angle = row * kAcross + column;
-            const Vec2 middle((column + 0.5) * pitch, (row + 0.5) * pitch);
-            const Vec2 half(0.2 * pitch * std::cos(angle), 0.2 * pitch * std::sin(angle));
-            scene.walls.push_back({middle - half, middle + half, 1});
-        }
-    }
-}
-
-constexpr Feature kFeatures[] = {{"nothing", add_nothing},
-                                 {"restitution", lose_energy},
-                                 {"mixed_sizes", mix_sizes},
-                                 {"walls", add_walls},
-                                 {"sides", enclose},
-                                 {"sides_and_gravity", enclose_and_pull},
-                                 {"sides_and_attractor", enclose_and_attract}};
-
-void engine_feature(benchmark::State& state) {
-    constexpr double kPacking = 0.3;
-    constexpr std::uint64_t kCount = 20000;
-    const Feature& feature = kFeatures[state.range(0)];
-    Scene scene = gas_scene(kCount, kPacking);
-    Domain domain = square(kCount, kPacking);
-    feature.add(scene, domain);
-    scene.domain = domain;
-    state.SetLabel(feature.name);
-    run(state, World(scene, on_threads(1)), kWarmUp * mean_free_time(kPacking),
-        long_enough(kCount, kPacking));
-}
-BENCHMARK(engine_feature)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->Iterations(10)
-    ->ArgName("feature")
-    ->DenseRange(0, static_cast<int>(std::size(kFeatures)) - 1);
 
 // Frames of a hundredth of a mean free time: what step() costs beyond the events. An iteration is a frame.
 void engine_frames(benchmark::State& state) {

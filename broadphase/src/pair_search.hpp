@@ -19,7 +19,7 @@ struct Axis {
     double period = 0;
 
     [[nodiscard]] double wrapped(double x) const {
-        if (period == 0) return x;
+        if (period == 0 || (x > min && x - min < period)) return x;  // as what follows gives, undivided
         const double turned = x - period * std::floor((x - min) / period);
         return turned - min < period ? turned : min;  // a hair below min rounds up to max
     }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "placement_methods.hpp"
 
@@ -154,16 +155,6 @@ std::vector<std::uint32_t> largest_first(const Space& space) {
     return order;
 }
 
-Vec2 place_at(const Space& space, double radius, double share_x, double share_y) {
-    Vec2 p(share_x, share_y);
-    for (int axis = 0; axis < 2; ++axis) {
-        const double low = space.low(axis, radius);
-        const double high = space.high(axis, radius);
-        p[axis] = std::min(low + p[axis] * (high - low), high);
-    }
-    return space.wrapped(p);
-}
-
 std::vector<std::uint32_t> adsorb(Space& space, Random& random) {
     space.clear();
     CoveredCells covered(space);
@@ -174,14 +165,19 @@ std::vector<std::uint32_t> adsorb(Space& space, Random& random) {
     std::uint64_t left = kTriesPerDisc * space.count() + kMostTriesInARow;
     std::uint64_t in_a_row = 0;
     std::size_t done = 0;
+    double radius = 0;
+    std::optional<Places> places;  // of that radius
     while (done < order.size() && left > 0 && in_a_row < kMostTriesInARow) {
         const std::size_t before = done;
         const auto& shares = rounds.draw(order.size() - done, rate, random);
         for (const auto& [share_x, share_y] : shares) {
             if (done == order.size() || left == 0) break;
             const std::uint32_t id = order[done];
-            const double radius = space.body(id).radius;
-            const Vec2 p = place_at(space, radius, share_x, share_y);
+            if (space.body(id).radius != radius) {
+                radius = space.body(id).radius;
+                places.emplace(space, radius);
+            }
+            const Vec2 p = places->at(share_x, share_y);
             --left;
             ++in_a_row;
             if (covered.covers(p) || !space.is_clear(p, radius)) continue;

@@ -31,7 +31,7 @@ void put_anywhere(Space& space, Random& random) {
     space.set_scale(1);
     for (const std::uint32_t id : left_over) {
         const double share_x = random.uniform();
-        space.insert(id, place_at(space, space.full_radius(id), share_x, random.uniform()));
+        space.insert(id, Places(space, space.full_radius(id)).at(share_x, random.uniform()));
     }
     for (std::uint32_t id = 0; id < space.count();
          ++id) {  // scaled discs may lie closer to the sides than full ones can

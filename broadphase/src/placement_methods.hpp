@@ -1,6 +1,8 @@
 // The ways of putting a fill's discs into its region.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -12,9 +14,27 @@ namespace carom::detail {
 /// The fill's discs in the order in which they are adsorbed.
 [[nodiscard]] std::vector<std::uint32_t> largest_first(const Space& space);
 
-/// The place at these shares, in [0, 1], of the way from the lowest to the highest one at which a disc lies
-/// inside the region.
-[[nodiscard]] Vec2 place_at(const Space& space, double radius, double share_x, double share_y);
+/// Where in the region the centre of a disc of a radius may lie.
+class Places {
+ public:
+    Places(const Space& space, double radius)
+        : space_(space),
+          low_{space.low(0, radius), space.low(1, radius)},
+          high_{space.high(0, radius), space.high(1, radius)} {}
+
+    /// The place at these shares, in [0, 1], of the way from the lowest to the highest.
+    [[nodiscard]] Vec2 at(double share_x, double share_y) const {
+        return space_.wrapped({along(0, share_x), along(1, share_y)});
+    }
+
+ private:
+    [[nodiscard]] double along(std::size_t axis, double share) const {
+        return std::min(low_[axis] + share * (high_[axis] - low_[axis]), high_[axis]);
+    }
+
+    const Space& space_;
+    std::array<double, 2> low_, high_;
+};
 
 /// Random sequential adsorption, the largest disc first: each at a uniformly random clear place. Returns the
 /// discs for which a bounded number of tries found no place, the largest first; none where all are in place.

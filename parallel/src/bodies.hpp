@@ -8,6 +8,7 @@
 
 #include <carom/broadphase/grid.hpp>
 #include <carom/broadphase/obstacles.hpp>
+#include <carom/parallel/kernel.hpp>
 
 #include "ball_record.hpp"
 #include "physics.hpp"
@@ -59,6 +60,12 @@ struct Bodies {
     }
     /// Whether accelerations differ from ball to ball.
     [[nodiscard]] bool accelerates_each() const { return !own_acceleration.empty() || !attractors.empty(); }
+    /// The event loop's kind.
+    [[nodiscard]] Acceleration acceleration() const {
+        if (accelerates_each()) return Acceleration::kPerBall;
+        return physics.gravity.isZero(0) ? Acceleration::kNone : Acceleration::kUniform;
+    }
+    [[nodiscard]] Kernel kernel() const;
     /// Whether balls carry a BallExtra.
     [[nodiscard]] bool needs_extras() const { return accelerates_each() || physics.contact_time > 0; }
     /// A position as an anchor holds it: in the box, and rounded where states are held in float. Counts the

@@ -150,9 +150,14 @@ void EventLoopOf<A>::audit(std::vector<Violation>& found) const {
 }
 
 std::unique_ptr<EventLoop> make_event_loop(const Bodies& bodies) {
-    if (bodies.accelerates_each()) return std::make_unique<EventLoopOf<Acceleration::kPerBall>>(bodies);
-    if (!bodies.physics.gravity.isZero(0))
-        return std::make_unique<EventLoopOf<Acceleration::kUniform>>(bodies);
+    switch (bodies.acceleration()) {
+        case Acceleration::kPerBall:
+            return std::make_unique<EventLoopOf<Acceleration::kPerBall>>(bodies);
+        case Acceleration::kUniform:
+            return std::make_unique<EventLoopOf<Acceleration::kUniform>>(bodies);
+        case Acceleration::kNone:
+            break;
+    }
     return std::make_unique<EventLoopOf<Acceleration::kNone>>(bodies);
 }
 

@@ -14,10 +14,6 @@
 
 namespace carom {
 
-/// How accelerations differ from ball to ball. Pairs under one common acceleration move straight relative to
-/// each other.
-enum class Acceleration : std::uint8_t { kNone, kUniform, kPerBall };
-
 template <Acceleration kAcceleration>
 class EventLoopOf final : public EventLoop {
  public:

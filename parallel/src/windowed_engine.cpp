@@ -37,8 +37,7 @@ WindowedEngine::WindowedEngine(const Bodies& bodies, EngineStart start, const Ex
       window_start_(start.now),
       window_length_(bodies.physics.clock.epoch_length() * kFirstWindow),
       growth_(kFirstGrowth) {
-    split(std::move(start.records), std::move(start.extras), whole(bodies.grid.x), whole(bodies.grid.y),
-          domains);
+    split(start.records, start.extras, whole(bodies.grid.x), whole(bodies.grid.y), domains);
     predict_anew(bodies.accelerates_each() && !start.has_field);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -64,7 +65,14 @@ class WindowedEngine final : public Engine {
             working_time_ += (std::chrono::steady_clock::now() - start).count();
         });
     }
-    void split(std::vector<BallRecord> records, std::vector<BallExtra> extras, Span x, Span y, int parts);
+    void split(const std::vector<BallRecord>& records, const std::vector<BallExtra>& extras, Span x, Span y,
+               int parts);
+    struct BallInCell {
+        CellCoordinates cell;
+        std::uint32_t record;
+    };
+    using MakeDomain = std::function<void(std::span<const BallInCell>, Span x, Span y)>;
+    void cut(std::span<BallInCell> balls, Span x, Span y, int parts, const MakeDomain& make_domain) const;
     void split_anew();
     void index_results(DomainState& d) const;
     void take_results(DomainState& d) const;

@@ -301,6 +301,9 @@ double World::contact_time() const {
 const Domain& World::domain() const {
     return state_->bodies.physics.domain;
 }
+Kernel World::kernel() const {
+    return state_->bodies.kernel();
+}
 Counts World::counts() const {
     return state_->engine->counts();
 }

@@ -272,7 +272,9 @@ TEST(Program, ValidateSaysWhatIsThere) {
     const Result result = folder.run({"validate", "s.json"});
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.err, "");
-    for (const char* const part : {"busy", "144 (1 static)", "x periodic, y wall", "0.282743", "(0, -0.5)"}) {
+    for (const char* const part : {"busy", "144 (1 static)", "x periodic, y wall", "0.282743", "(0, -0.5)",
+                                   "kernel        uniform acceleration (gravity), ", "x periodic, y walled",
+                                   "bounds on vectors: yes"}) {
         EXPECT_THAT(result.out, HasSubstr(part));  // 144 pi 0.36 / 576 = 0.2827433
     }
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"s.json"}));

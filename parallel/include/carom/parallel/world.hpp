@@ -10,6 +10,7 @@
 
 #include <carom/core/scene.hpp>
 #include <carom/core/snapshot.hpp>
+#include <carom/parallel/kernel.hpp>
 
 namespace carom {
 
@@ -71,6 +72,8 @@ class World {
     [[nodiscard]] double contact_time() const;
     /// The box that is simulated; where the scene has none, the one around what was there at the start.
     [[nodiscard]] const Domain& domain() const;
+    /// What of the engine the scene makes run; fixed when the world is built.
+    [[nodiscard]] Kernel kernel() const;
 
     /// State at time(); reading anchors nothing. Periodic positions lie inside the box.
     [[nodiscard]] PlaneVectors positions() const;
