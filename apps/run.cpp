@@ -52,7 +52,8 @@ Precision output_precision(const Scene& scene, const RunOptions& options) {
 bool move_to_end(World& world, Driver& driver, const Scene& scene, double until, const RunOptions& options,
                  RunOutputs& outputs) {
     Multiples frames(options.every.value_or(1), outputs.trajectory ? until : 0);
-    Multiples steps(options.step.value_or(1), options.step ? until : 0);
+    const bool stops = options.step && scene.method == Method::kEvent;
+    Multiples steps(options.step.value_or(1), stops ? until : 0);
     double last_frame = -1;
     const auto write_frame = [&] {
         outputs.trajectory->write(world.time(), world.balls(), scene.domain,
@@ -94,6 +95,7 @@ Summary summary_of(const World& world, const Scene& scene, const Balance& start,
     const Counts counts = world.counts();
     Summary summary;
     summary.scene = scene.name;
+    summary.method = name_of(scene.method);
     summary.precision = name_of(scene.precision);
     summary.threads = world.threads();
     summary.balls = world.ball_count();
@@ -112,6 +114,8 @@ Summary summary_of(const World& world, const Scene& scene, const Balance& start,
     summary.momentum_final = end.momentum;
     summary.windows = counts.windows;
     summary.window_retries = counts.window_retries;
+    summary.steps = counts.steps;
+    summary.missed_collisions = counts.missed_collisions;
     summary.max_overlap = world.max_overlap();
     summary.compressibility_factor = world.compressibility_factor();
     summary.state_hash = world.state_hash();

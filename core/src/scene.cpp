@@ -258,6 +258,16 @@ void require_range_of_float(const Vec2& v, const Place& at, std::string_view fie
                          "must lie within -1e30 and 1e30 where precision is float, is " + text(v));
 }
 
+/// What the empirical method is told, also where the method is another.
+void check_steps(const Scene& scene) {
+    if (scene.step) require_positive(*scene.step, kScene, "step");
+    if (scene.tolerance) require_positive(*scene.tolerance, kScene, "tolerance");
+    if (!scene.max_travel) return;
+    require_not_negative(*scene.max_travel, kScene, "max_travel");
+    if (*scene.max_travel == 0 && !scene.step)
+        throw SceneError("max_travel", "must be > 0 where no step is given, is 0");
+}
+
 void check_rules(const Scene& scene) {
     if (scene.domain) {
         require_area(scene.domain->box, kScene, "domain");
@@ -273,6 +283,7 @@ void check_rules(const Scene& scene) {
         throw SceneError("speed_factor", "must be > 0 and at most 1, is " + text(scene.speed_factor));
     require_positive(scene.field_interval, kScene, "field_interval");
     require_not_negative(scene.until, kScene, "until");
+    check_steps(scene);
 }
 
 }  // namespace

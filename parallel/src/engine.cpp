@@ -97,6 +97,7 @@ std::vector<BallRecord> records_at_start(const Bodies& bodies, std::span<const B
 
 std::unique_ptr<Engine> make_engine(const Bodies& bodies, std::span<const Ball> balls,
                                     const Executor& executor, const WorldOptions& options) {
+    if (bodies.physics.empirical) return make_empirical_engine(bodies, balls, executor, options.count_missed);
     const int domains = choose_domains(bodies, executor, options.domains);
     if (domains <= 1) return std::make_unique<SerialEngine>(bodies, balls, executor);
     // A halo as wide as the plane holds all there is.

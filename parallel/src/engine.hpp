@@ -57,4 +57,7 @@ class Engine {
 [[nodiscard]] std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, std::span<const Ball> balls,
                                                            const Executor& executor, int domains, int halo);
 
+[[nodiscard]] std::unique_ptr<Engine> make_empirical_engine(const Bodies& bodies, std::span<const Ball> balls,
+                                                            const Executor& executor, bool count_missed);
+
 }  // namespace carom

@@ -201,6 +201,8 @@ TEST(Program, SummaryHasItsKeysInOrder) {
                                   "compressibility_factor",
                                   "windows",
                                   "window_retries",
+                                  "steps",
+                                  "missed_collisions",
                                   "peak_memory_bytes",
                                   "state_hash"}) {
         const std::size_t place = result.out.find(std::string("\"").append(key).append("\":"));
