@@ -43,7 +43,10 @@ class EmpiricalEngine final : public Engine {
     void listen(std::function<void(const Collision&)> listener) override { listener_ = std::move(listener); }
 
  private:
-    static constexpr std::uint32_t kMostResponses = 8;  // of a ball in a step
+    // Of a ball in a step; beyond the first number with obstacles alone, so that in a pile the floor has the
+    // last word.
+    static constexpr std::uint32_t kMostAmongBalls = 32;
+    static constexpr std::uint32_t kMostResponses = 64;
 
     /// Periods by which the second body is moved to be near the first.
     struct Image {
@@ -179,7 +182,7 @@ class EmpiricalEngine final : public Engine {
     void respond_ball(const Meeting& meeting);
     void respond_obstacle(const Meeting& meeting);
     void tell(const Meeting& meeting, const Vec2& normal, double impulse, double virial);
-    [[nodiscard]] double restitution_at(double restitution, std::uint32_t slot, std::uint32_t other,
+    [[nodiscard]] double restitution_at(double restitution, const Pair& pair, double gap,
                                         const Time& t) const;
     [[nodiscard]] double parting_speed(double pressure, const Vec2& line) const;
 

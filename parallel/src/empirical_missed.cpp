@@ -182,7 +182,8 @@ bool EmpiricalEngine::misses(const Pair& pair) const {
     const double gap = touch(pair, end, other).gap;
     // No place of a way is further from its end than travel along either axis.
     const double reach = 1.5 * (travel_[pair.slot] + (moves ? travel_[pair.other] : 0));
-    if (gap < 0 || gap > reach || is_resolved(pair.slot, pair.partner)) return false;
+    // Who ends it in contact, to rounding, is met in the next step.
+    if (gap <= steps_.tolerance || gap > reach || is_resolved(pair.slot, pair.partner)) return false;
     const Way a = way_of(pair.slot);
     const Way b = moves ? way_of(pair.other) : Way{{}, 1};
     for (std::size_t i = 0, j = 0; i < a.count && j < b.count;) {

@@ -8,6 +8,13 @@
 #include "empirical_engine.hpp"
 
 namespace carom {
+namespace {
+
+// A ball that has responded so often in a step lies in contact, and loses no more in it: the TC model told by
+// a count, for the contact time may be far shorter than the step.
+constexpr std::uint32_t kLossyResponses = 4;
+
+}  // namespace
 
 void EmpiricalEngine::resolve_all() {
     later_.clear();
@@ -28,7 +35,8 @@ void EmpiricalEngine::resolve_all() {
         const Pair& pair = meeting.pair;
         if (has_responded(pair.slot, meeting.stamp) || has_responded(pair.other, meeting.other_stamp))
             continue;  // it was looked at again then
-        if (std::max(meeting.stamp, meeting.other_stamp) >= kMostResponses) {
+        const std::uint32_t most = pair.other == kNowhere ? kMostResponses : kMostAmongBalls;
+        if (std::max(meeting.stamp, meeting.other_stamp) >= most) {
             lasting_.push_back(meeting);
             continue;
         }
@@ -99,20 +107,27 @@ void EmpiricalEngine::relist(std::uint32_t slot) {
     first_touched_[static_cast<std::size_t>(cell)] = index;
 }
 
-/// The TC model: a body that has collided a moment ago loses nothing. `other` is kNowhere where the other
-/// body has no past.
-double EmpiricalEngine::restitution_at(double restitution, std::uint32_t slot, std::uint32_t other,
+/// The TC model: a body that has collided a moment ago loses nothing. Nor does a contact that has lasted
+/// since the step before: it has paid already, and would sink a little in every step.
+double EmpiricalEngine::restitution_at(double restitution, const Pair& pair, double gap,
                                        const Time& t) const {
+    if (gap < -steps_.tolerance) return 1;
+    if (std::max(stamp_of(pair.slot), stamp_of(pair.other)) > kLossyResponses) return 1;
     const double contact_time = bodies_.physics.contact_time;
     if (contact_time == 0) return restitution;
-    const Time& last =
-        other == kNowhere ? last_collision_[slot] : std::max(last_collision_[slot], last_collision_[other]);
+    const Time& last = pair.other == kNowhere
+                           ? last_collision_[pair.slot]
+                           : std::max(last_collision_[pair.slot], last_collision_[pair.other]);
     return tc_restitution(restitution, clock_.difference(t, last), contact_time);
 }
 
-/// The speed at which a contact pressed together must part to stay open for the rest time.
+/// The speed at which a contact pressed together must part to stay open for the rest time; in a scene with
+/// losses for a step at least, lest what lies at rest falls into its floor in the rest of each step.
 double EmpiricalEngine::parting_speed(double pressure, const Vec2& line) const {
-    return pressure > 0 ? pressure / std::sqrt(length_squared(line)) * bodies_.physics.rest_time / 2 : 0.0;
+    if (!(pressure > 0)) return 0;
+    const Physics& physics = bodies_.physics;
+    const double rest = physics.loses_energy ? std::max(physics.rest_time, duration_) : physics.rest_time;
+    return pressure / std::sqrt(length_squared(line)) * rest / 2;
 }
 
 void EmpiricalEngine::respond_ball(const Meeting& meeting) {
@@ -121,11 +136,12 @@ void EmpiricalEngine::respond_ball(const Meeting& meeting) {
     const Time time = clock_.after(now_, meeting.time);
     const Vec2 va = {vx_[i], vy_[i]};
     const Vec2 vb = {vx_[j], vy_[j]};
-    const Vec2 line = touch(meeting.pair, {x_[i], y_[i]}, {x_[j], y_[j]}).line;
+    const Touch contact = touch(meeting.pair, {x_[i], y_[i]}, {x_[j], y_[j]});
+    const Vec2& line = contact.line;
     const double restitution =
         restitution_at(pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(id_[i]),
                                         bodies_.restitution.of(id_[j])),
-                       i, j, time);
+                       meeting.pair, contact.gap, time);
     double pressure = 0;
     if (!acceleration_.empty())
         pressure =
@@ -159,13 +175,13 @@ void EmpiricalEngine::respond_obstacle(const Meeting& meeting) {
         restitution = bodies_.walls[partner - bodies_.count].restitution;
     restitution =
         pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(id_[i]), restitution);
-    const double lasting = restitution_at(restitution, i, kNowhere, time);
+    const double lasting = restitution_at(restitution, meeting.pair, contact.gap, time);
     const Vec2 acceleration = acceleration_of(i);
     double pressure = 0;
     if (!acceleration.isZero(0))
         pressure = -(dot(line, acceleration) + (contact.is_round ? length_squared(before) : 0.0));
-    const double factor =
-        bodies_.physics.contact_time > 0 && lasting != restitution ? 1 : bodies_.physics.speed_factor;
+    const bool is_paid = lasting != restitution || contact.gap < -steps_.tolerance;
+    const double factor = is_paid ? 1 : bodies_.physics.speed_factor;
     const Vec2 after = bounce<double>(before, line, lasting, parting_speed(pressure, line) / factor,
                                       [&](const Vec2& v) { return bodies_.held_velocity(v * factor); });
     vx_[i] = after.x();

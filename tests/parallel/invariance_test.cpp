@@ -18,21 +18,15 @@ std::uint64_t hash_of(const Scene& scene, const WorldOptions& options,
     return world.state_hash();
 }
 
-/// The feature scenes and two with attractors, whose field is held constant for a while.
-std::vector<NamedScene> all_scenes() {
-    std::vector<NamedScene> all = feature_scenes();
-    Scene holes = gas(
-        21,
-        {.packing = 0.1, .boundary_x = Boundary::kWall, .boundary_y = Boundary::kWall, .radius_spread = 0.5});
-    holes.attractors = {{{10, 10}, 20, 1}, {{25, 30}, 10, 0.5}};
-    holes.gravity = {0, -0.2};
-    all.push_back({"attractors walled", holes});
-    Scene open = gas(
-        22,
-        {.packing = 0.1, .boundary_x = Boundary::kOpen, .boundary_y = Boundary::kOpen, .restitution = 0.8});
-    open.attractors = {{{20, 20}, 30, 1}};
-    open.field_interval = 0.05;
-    all.push_back({"attractor in the open inelastic", open});
+/// Every scene under the empirical method, with steps of three kinds.
+std::vector<NamedScene> empirical_scenes() {
+    std::vector<NamedScene> all = all_scenes();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        Scene& s = all[k].scene;
+        s.method = Method::kEmpirical;
+        if (k % 3 != 0) s.step = 0.07;
+        if (k % 3 == 2) s.max_travel = 0.1;
+    }
     return all;
 }
 
@@ -89,11 +83,14 @@ TEST_P(Invariance, OfReading) {
     EXPECT_EQ(world.state_hash(), hash_of(GetParam().scene, {.threads = 1}));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::ValuesIn(all_scenes()), [](const auto& param) {
+constexpr auto kNameOfScene = [](const auto& param) {
     std::string name = param.param.name;
     std::replace(name.begin(), name.end(), ' ', '_');
     return name;
-});
+};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::ValuesIn(all_scenes()), kNameOfScene);
+INSTANTIATE_TEST_SUITE_P(Empirical, Invariance, testing::ValuesIn(empirical_scenes()), kNameOfScene);
 
 TEST(StateHash, ChangesWithTheLastBitOfOneVelocity) {
     Scene scene = gas(1, {});

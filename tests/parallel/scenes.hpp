@@ -193,4 +193,22 @@ inline std::vector<NamedScene> feature_scenes() {
     return all;
 }
 
+/// The feature scenes and two with attractors, whose field is held constant for a while.
+inline std::vector<NamedScene> all_scenes() {
+    std::vector<NamedScene> all = feature_scenes();
+    Scene holes = gas(
+        21,
+        {.packing = 0.1, .boundary_x = Boundary::kWall, .boundary_y = Boundary::kWall, .radius_spread = 0.5});
+    holes.attractors = {{{10, 10}, 20, 1}, {{25, 30}, 10, 0.5}};
+    holes.gravity = {0, -0.2};
+    all.push_back({"attractors walled", holes});
+    Scene open = gas(
+        22,
+        {.packing = 0.1, .boundary_x = Boundary::kOpen, .boundary_y = Boundary::kOpen, .restitution = 0.8});
+    open.attractors = {{{20, 20}, 30, 1}};
+    open.field_interval = 0.05;
+    all.push_back({"attractor in the open inelastic", open});
+    return all;
+}
+
 }  // namespace carom::test
