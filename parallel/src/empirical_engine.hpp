@@ -7,9 +7,9 @@
 // - The contacts of a step are resolved in the order of (time, smaller number, larger number), numbered as
 //   the event loop numbers bodies. After a response both balls are looked at again for the rest of the step.
 // - A ball has at most kMostResponses responses in a step. What still overlaps at the end of a step is kept
-// in
-//   `lasting_`, and responds at the start of the next where it approaches then.
-// - Positions are never corrected, only velocities: an elastic response cannot add energy.
+//   in `lasting_`, and responds at the start of the next where it approaches then; it loses no more.
+// - Positions are never corrected, only velocities: an elastic response cannot add energy. Scenes with losses
+//   pay for that with speeds of parting, see parting_speed() and recovery().
 //
 // Balls stand at slots, in the order of the cells every now and then; their ids decide every order that
 // shows. empirical_search.cpp finds the contacts, empirical_respond.cpp resolves them, empirical_missed.cpp
@@ -184,6 +184,7 @@ class EmpiricalEngine final : public Engine {
     void tell(const Meeting& meeting, const Vec2& normal, double impulse, double virial);
     [[nodiscard]] double restitution_at(double restitution, const Pair& pair, double gap,
                                         const Time& t) const;
+    [[nodiscard]] double recovery(double gap, std::uint32_t slot) const;
     [[nodiscard]] double parting_speed(double pressure, const Vec2& line) const;
 
     // empirical_missed.cpp

@@ -101,14 +101,15 @@ void EmpiricalEngine::examine(const Pair& pair, Part& part) const {
         part.lasting.push_back(meeting_of(pair, duration_));
 }
 
-/// A pair that overlapped when the last step ended responds now where it approaches.
+/// A pair that overlapped when the last step ended responds now where it approaches, or parts too slowly.
 void EmpiricalEngine::examine_start(const Meeting& lasting, Part& part) const {
     const Pair& pair = lasting.pair;
     const Motion<double> a = motion_from(pair.slot, 0);
     const Motion<double> b = pair.other != kNowhere ? motion_from(pair.other, 0) : Motion<double>{};
     const Touch now = touch(pair, a.position, b.position);
-    if (now.gap < 0 && dot<double>(now.line, a.velocity - b.velocity) < 0)
-        part.contacts.push_back(meeting_of(pair, 0));
+    const double rate = dot<double>(now.line, a.velocity - b.velocity);
+    const double least = recovery(now.gap, pair.slot) * std::sqrt(length_squared(now.line));
+    if (now.gap < 0 && (rate < 0 || rate < least)) part.contacts.push_back(meeting_of(pair, 0));
 }
 
 /// Whether the ends of two balls overlap, the second moved by `shift`.
