@@ -237,6 +237,14 @@ void EmpiricalEngine::audit(std::vector<Violation>& found) const {
         if (slot_of_[id_[i]] != i) report("is not where its id says");
         if (is_touched(i)) report("is still within a step");
     }
+    for (const Meeting& m : lasting_) {
+        const auto place = [this](std::uint32_t slot) { return Vec2(x_[slot], y_[slot]); };
+        const Vec2 centre = place(m.pair.slot);
+        const Vec2 other = m.pair.other == kNowhere ? centre : place(m.pair.other);
+        if (!(touch(m.pair, centre, other).gap < radius_of(m.pair.slot)))
+            found.push_back({"balls[" + std::to_string(id_[m.pair.slot]) + "]: is kept as overlapping body " +
+                             std::to_string(m.pair.partner) + ", which is elsewhere"});
+    }
     if (!(now_ < next_) && size() > 0) found.push_back({"the next step lies in the past"});
 }
 
