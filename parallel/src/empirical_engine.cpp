@@ -50,7 +50,7 @@ EmpiricalEngine::EmpiricalEngine(const Bodies& bodies, std::span<const Ball> bal
     if (count_missed) counts_.missed_collisions = 0;
 
     // Who overlaps at the start, or touches: a step of no length.
-    if (bodies.accelerates_each()) acceleration_.resize(size());
+    if (bodies.accelerates_each()) acceleration_.assign(size(), Vec2::Zero());
     move_all();
     search();
     lasting_.insert(lasting_.end(), contacts_.begin(), contacts_.end());
@@ -134,6 +134,14 @@ void EmpiricalEngine::move_all() {
 }
 
 void EmpiricalEngine::place_end(std::uint32_t slot, const Vec2& end) {
+    // Beyond that the periods passed do not fit their number.
+    constexpr double kMostPeriods = 1e9;
+    const auto fits = [](const GridAxis& axis, double x) {
+        return !axis.periodic() || std::abs(x - axis.min()) < kMostPeriods * axis.length();
+    };
+    if (!fits(bodies_.grid.x, end.x()) || !fits(bodies_.grid.y, end.y()))
+        throw std::runtime_error("balls[" + std::to_string(id_[slot]) +
+                                 "]: flies through more than a thousand million periods in one step");
     Periods away;
     wrapped_x_[slot] = bodies_.grid.x.wrapped(end.x(), away.x);
     wrapped_y_[slot] = bodies_.grid.y.wrapped(end.y(), away.y);

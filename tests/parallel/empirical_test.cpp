@@ -219,6 +219,22 @@ TEST(Empirical, PileNeitherGainsNorHangs) {
     }
 }
 
+// A pile that drifts through a period: what overlaps from step to step is known in the right image, which
+// validate() looks after.
+TEST(Empirical, DriftingPileIsKeptTrackOf) {
+    Scene s = gas(75, {.count = 60, .packing = 0.4, .boundary_y = Boundary::kWall, .restitution = 0.5});
+    s.gravity = {0, -9.81};
+    for (Ball& b : s.balls) b.velocity.x() += 3;
+    World world(empirical(s));
+    double deepest = 0;
+    for (int k = 1; k <= 100; ++k) {
+        world.advance_to(0.1 * k);
+        ASSERT_THAT(world.validate(), testing::IsEmpty()) << k;
+        deepest = std::max(deepest, world.max_overlap());
+    }
+    EXPECT_GT(deepest, 0) << "nothing to keep track of";
+}
+
 // Where nothing is missed a contact is off by at most the tolerance over the speed of approach, and the rest
 // follows: the same pairs meet in the same order, the times of the first collisions of all are off in
 // proportion to the tolerance. The factor: a collision multiplies an error by about twice the free path over
@@ -400,6 +416,20 @@ TEST(Empirical, WorldsWithoutMotion) {
     World fixed(s);
     fixed.advance_to(1e6);
     EXPECT_EQ(fixed.positions()[1], Vec2(2, 0));
+}
+
+TEST(Empirical, RefusesToLoseCountOfPeriods) {
+    Scene s;
+    s.until = 1;
+    s.domain = Domain{{{0, 0}, {2, 2}}, {Boundary::kPeriodic, Boundary::kOpen}, 1};
+    s.balls.resize(1);
+    s.balls[0].velocity = {1e8, 1e9};
+    World world(empirical(s, 1));
+    world.advance_to(1);
+    EXPECT_EQ(world.positions()[0], Vec2(0, 1e9));
+    s.balls[0].velocity = {1e10, 0};
+    World too_fast(empirical(s, 1));
+    EXPECT_THROW(too_fast.advance_to(1), std::runtime_error);
 }
 
 std::string reason(const Scene& scene) {

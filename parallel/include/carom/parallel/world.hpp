@@ -39,7 +39,7 @@ struct WorldOptions {
 struct Counts {
     std::uint64_t ball_collisions = 0;
     std::uint64_t wall_collisions = 0;
-    std::uint64_t events = 0;             ///< collisions, cell crossings, stale predictions and field updates
+    std::uint64_t events = 0;             ///< collisions, cell crossings, stale predictions, field updates
     std::uint64_t windows = 0;            ///< stretches of time through which a domain went on its own
     std::uint64_t window_retries = 0;     ///< of them those that a domain had to go through again
     std::uint64_t copied_collisions = 0;  ///< that a domain resolved for its halo, on top of all others
