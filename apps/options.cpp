@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -41,6 +42,19 @@ CLI::Validator parse_check(Parse parse) {
 
 constexpr int kMostThreads = 4096;
 
+// An option that takes one of two words, the enumerators' names.
+template <class Enumerator>
+CLI::Option* add_word_option(CLI::App& command, const std::string& name, std::optional<Enumerator>& chosen,
+                             const std::array<Enumerator, 2>& all, const std::string& description) {
+    std::map<std::string, Enumerator> words;
+    for (const Enumerator e : all) words[name_of(e)] = e;
+    return command
+        .add_option_function<std::string>(
+            name, [&chosen, words](const std::string& word) { chosen = words.at(word); }, description)
+        ->option_text(std::string(name_of(all[0])) + "|" + name_of(all[1]))
+        ->check(CLI::IsMember(words));
+}
+
 }  // namespace
 
 CLI::Validator positive_number() {
@@ -72,15 +86,18 @@ const char* name_of(Precision precision) {
     return precision == Precision::kFloat ? "float" : "double";
 }
 
+const char* name_of(Method method) {
+    return method == Method::kEmpirical ? "empirical" : "event";
+}
+
 CLI::Option* add_precision_option(CLI::App& command, const std::string& name,
                                   std::optional<Precision>& precision, const std::string& description) {
-    std::map<std::string, Precision> words;
-    for (const Precision p : {Precision::kDouble, Precision::kFloat}) words[name_of(p)] = p;
-    return command
-        .add_option_function<std::string>(
-            name, [&precision, words](const std::string& word) { precision = words.at(word); }, description)
-        ->option_text("double|float")
-        ->check(CLI::IsMember(words));
+    return add_word_option(command, name, precision, {Precision::kDouble, Precision::kFloat}, description);
+}
+
+CLI::Option* add_method_option(CLI::App& command, const std::string& name, std::optional<Method>& method,
+                               const std::string& description) {
+    return add_word_option(command, name, method, {Method::kEvent, Method::kEmpirical}, description);
 }
 
 void add_threads_option(CLI::App& command, int& threads) {

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <carom/core/precision.hpp>
+#include <carom/core/scene.hpp>
 
 namespace carom::app {
 
@@ -27,6 +28,13 @@ namespace carom::app {
 /// Adds an option that takes `double` or `float`.
 CLI::Option* add_precision_option(CLI::App& command, const std::string& name,
                                   std::optional<Precision>& precision, const std::string& description);
+
+/// `event` or `empirical`.
+[[nodiscard]] const char* name_of(Method method);
+
+/// Adds an option that takes `event` or `empirical`.
+CLI::Option* add_method_option(CLI::App& command, const std::string& name, std::optional<Method>& method,
+                               const std::string& description);
 
 /// Adds --threads to a command; 0 stands for all of the machine's.
 void add_threads_option(CLI::App& command, int& threads);

@@ -53,7 +53,8 @@ bool move_to_end(World& world, Driver& driver, const Scene& scene, double until,
                  Checkpointer& checkpointer, RunOutputs& outputs) {
     RunRecord& record = checkpointer.record;
     Multiples frames(record.frame_interval, outputs.trajectory ? until : 0, double(record.next_frame));
-    Multiples steps = Multiples::after(world.time(), options.step.value_or(1), options.step ? until : 0);
+    const bool stops = options.step && scene.method == Method::kEvent;
+    Multiples steps = Multiples::after(world.time(), options.step.value_or(1), stops ? until : 0);
     Multiples checkpoints =
         Multiples::after(world.time(), checkpointer.interval(until), checkpointer.is_wanted() ? until : 0);
     double last_frame =
@@ -102,6 +103,7 @@ Summary summary_of(const World& world, const Scene& scene, const RunRecord& reco
     const Counts counts = world.counts();
     Summary summary;
     summary.scene = scene.name;
+    summary.method = name_of(scene.method);
     summary.precision = name_of(scene.precision);
     summary.threads = world.threads();
     summary.balls = world.ball_count();
@@ -120,6 +122,8 @@ Summary summary_of(const World& world, const Scene& scene, const RunRecord& reco
     summary.momentum_final = world.momentum();
     summary.windows = counts.windows;
     summary.window_retries = counts.window_retries;
+    summary.steps = counts.steps;
+    summary.missed_collisions = counts.missed_collisions;
     summary.max_overlap = world.max_overlap();
     summary.compressibility_factor = world.compressibility_factor();
     summary.state_hash = world.state_hash();

@@ -18,7 +18,11 @@ struct RunOptions {
     std::string scene;
     std::optional<double> until;
     int threads = 0;
-    std::optional<double> step;
+    std::optional<double> step;    ///< of the empirical method; else between two stops of the run
+    std::optional<Method> method;  ///< none: the scene's, as the next two
+    std::optional<double> tolerance;
+    std::optional<double> max_travel;
+    bool count_missed = true;
     std::optional<Precision> precision;         ///< none: the scene's
     std::optional<Precision> output_precision;  ///< none: the simulation's
     double cell_size = 0;

@@ -24,6 +24,10 @@ constexpr const char* kFooter =
     R"(Every collision is found at its true time and resolved in time order. The result does not depend on --threads, --step
 or --cell-size, to the last bit: 'state_hash' in the summary says so.
 
+--method empirical is the other way: move all balls by a step, look who overlaps, trace each pair back to the contact, go on. Its
+result depends on --step, --max-travel and --tolerance, and not on --threads or --cell-size. What it misses is counted:
+'missed_collisions'.
+
 Files ending in .xyz are extended XYZ, one frame after the other, with enough digits to read back the same bits.
 --events writes CSV, one collision a line: time,kind,i,j,x,y,nx,ny,impulse. The summary is one JSON object. All outputs
 but the trajectory appear whole, at the end; the trajectory grows as the run goes, and so does --events with --checkpoint.
@@ -38,6 +42,7 @@ beyond the checkpoint is cut off and written anew.
 Examples:
   carom run gas.json                                 Summary to standard output
   carom run gas.json --until 100 --summary gas.out   Go on longer; summary to a file
+  carom run gas.json --method empirical --step 0.001
   carom run gas.json --trajectory gas.xyz --every 0.5
   carom run gas.json --events hits.csv --picture end.png --final end.xyz
   carom run gas.json --checkpoint gas.ckpt --checkpoint-every 10
@@ -72,7 +77,8 @@ World make_world(const Scene& scene, const RunOptions& options, const std::optio
     const WorldOptions wanted{.threads = options.threads,
                               .cell_size = options.cell_size,
                               .domains = options.domains,
-                              .halo = options.halo};
+                              .halo = options.halo,
+                              .count_missed = options.count_missed};
     if (!from) return World(scene, wanted);
     try {
         return {scene, wanted, from->snapshot};
@@ -81,10 +87,30 @@ World make_world(const Scene& scene, const RunOptions& options, const std::optio
     }
 }
 
+// What the command line says of the method goes before the scene.
+void take_method(Scene& scene, const RunOptions& options) {
+    scene.method = options.method.value_or(scene.method);
+    if (scene.method == Method::kEvent) {
+        for (const auto& [name, is_given] : {std::pair("--tolerance", options.tolerance.has_value()),
+                                             std::pair("--max-travel", options.max_travel.has_value()),
+                                             std::pair("--no-missed", !options.count_missed)})
+            if (is_given)
+                throw CLI::ValidationError(name, "belongs to --method empirical, the method is event");
+        return;
+    }
+    for (const auto& [name, is_given] : {std::pair("--checkpoint", !options.checkpoint.empty()),
+                                         std::pair("--resume", !options.resume.empty())})
+        if (is_given) throw CLI::ValidationError(name, "belongs to --method event, the method is empirical");
+    if (options.step) scene.step = options.step;
+    if (options.tolerance) scene.tolerance = options.tolerance;
+    if (options.max_travel) scene.max_travel = options.max_travel;
+}
+
 int run(const RunOptions& options) {
     require_distinct_files(options);
     Scene scene = read_scene(options.scene);
     scene.precision = options.precision.value_or(scene.precision);
+    take_method(scene, options);
     const double until = options.until.value_or(scene.until);
     std::optional<Checkpoint> checkpoint = checkpoint_of(options, until);
     std::optional<RunOutputs> outputs;
@@ -155,6 +181,34 @@ void add_checkpoint_options(CLI::App& command, RunOptions& options) {
         ->group(group);
 }
 
+void add_method_options(CLI::App& command, RunOptions& options) {
+    const char* const group = "Method";
+    add_method_option(
+        command, "--method", options.method,
+        "Find collisions at their true times, or by the overlaps at the end of each step, instead "
+        "of as the scene says")
+        ->group(group);
+    command
+        .add_option("--tolerance", options.tolerance,
+                    "Empirical: a contact is found with the surfaces apart by at most this length (default: "
+                    "1e-6 of the smallest moving radius)")
+        ->type_name("EPS")
+        ->check(positive_number())
+        ->group(group);
+    command
+        .add_option(
+            "--max-travel", options.max_travel,
+            "Empirical: steps so short that no moving ball travels more than X times the smallest radius "
+            "(default: 0.2 where no step is given; 0: no limit)")
+        ->type_name("X")
+        ->check(number_from_zero())
+        ->group(group);
+    command
+        .add_flag("!--no-missed", options.count_missed,
+                  "Empirical: do not count the collisions that the steps miss, which is faster")
+        ->group(group);
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, int& status) {
@@ -171,9 +225,11 @@ void add_run_command(CLI::App& app, int& status) {
         "Hold balls' states in this type instead of the scene's; float rounds at each event");
     command
         ->add_option("--step", options->step,
-                     "Advance in steps of this length. Never changes a bit of the result")
+                     "Advance in steps of this length. Never changes a bit of the result, but with --method "
+                     "empirical, whose steps these are (with --max-travel the longest)")
         ->type_name("DT")
         ->check(positive_number());
+    add_method_options(*command, *options);
     command
         ->add_option("--domains", options->domains,
                      "parts that the plane is cut in, to be simulated side by side; speed only (default: "

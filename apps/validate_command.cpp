@@ -68,6 +68,15 @@ std::string contact_text(double contact_time) {
                        kRestingCollisions / contact_time);
 }
 
+std::string method_text(const Scene& scene) {
+    std::string text = name_of(scene.method);
+    if (scene.method == Method::kEvent) return text;
+    const double travel = scene.max_travel.value_or(scene.step ? 0 : Scene::kUsualTravel);
+    if (scene.step) text += fmt::format(", step{} {:.6g}", travel > 0 ? " at most" : "", *scene.step);
+    if (travel > 0) text += fmt::format(", travel at most {:.6g} of the smallest radius", travel);
+    return text;
+}
+
 int validate(const std::string& path) {
     Scene scene = read_scene(path);
     scene.balls = place_balls(scene);
@@ -90,8 +99,9 @@ int validate(const std::string& path) {
                      [](const Ball& ball) { return std::hypot(ball.velocity.x(), ball.velocity.y()); })) +
         row("domain", domain_text(scene)) + row("packing", packing_text(scene, scene.balls)) +
         row("gravity", fmt::format("({:.6g}, {:.6g})", scene.gravity.x(), scene.gravity.y())) +
-        row("precision", name_of(scene.precision)) + row("contact time", contact_text(world.contact_time())) +
-        row("kernel", describe(world.kernel())) + row("until", fmt::format("{:.6g}", scene.until)));
+        row("precision", name_of(scene.precision)) + row("method", method_text(scene)) +
+        row("contact time", contact_text(world.contact_time())) + row("kernel", describe(world.kernel())) +
+        row("until", fmt::format("{:.6g}", scene.until)));
     return kGood;
 }
 

@@ -20,6 +20,8 @@ constexpr double kMostBalls = 1e8;
 constexpr double kLargestInFloat = 1e30;
 // A position computed as side + radius is off by an ulp or two of the side.
 constexpr double kSideTolerance = 1e-12;
+// Shorter ways in a step, in radii, would leave no digits to tell them.
+constexpr double kLeastTravel = 1e-9;
 // Packing of equal discs in the triangular lattice, the densest there is: pi / (2 sqrt 3).
 constexpr double kDensestPacking = std::numbers::pi / (2 * std::numbers::sqrt3);
 constexpr std::array<std::string_view, 2> kAxisName = {"x", "y"};
@@ -258,6 +260,18 @@ void require_range_of_float(const Vec2& v, const Place& at, std::string_view fie
                          "must lie within -1e30 and 1e30 where precision is float, is " + text(v));
 }
 
+/// What the empirical method is told, also where the method is another.
+void check_steps(const Scene& scene) {
+    if (scene.step) require_positive(*scene.step, kScene, "step");
+    if (scene.tolerance) require_positive(*scene.tolerance, kScene, "tolerance");
+    if (!scene.max_travel) return;
+    require_not_negative(*scene.max_travel, kScene, "max_travel");
+    if (*scene.max_travel > 0 && *scene.max_travel < kLeastTravel)
+        throw SceneError("max_travel", "must be 0 or at least 1e-9, is " + text(*scene.max_travel));
+    if (*scene.max_travel == 0 && !scene.step)
+        throw SceneError("max_travel", "must be > 0 where no step is given, is 0");
+}
+
 void check_rules(const Scene& scene) {
     if (scene.domain) {
         require_area(scene.domain->box, kScene, "domain");
@@ -273,6 +287,7 @@ void check_rules(const Scene& scene) {
         throw SceneError("speed_factor", "must be > 0 and at most 1, is " + text(scene.speed_factor));
     require_positive(scene.field_interval, kScene, "field_interval");
     require_not_negative(scene.until, kScene, "until");
+    check_steps(scene);
 }
 
 }  // namespace

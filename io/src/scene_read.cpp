@@ -21,10 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 using Keys = std::string_view[];
 
-constexpr Keys kSceneKeys = {
-    "name",  "domain",      "gravity", "restitution_rule", "contact_time",   "speed_factor", "balls",
-    "fill",  "balls_file",  "walls",   "attractors",       "field_interval", "precision",    "allow_overlap",
-    "until", "description", "$schema"};
+constexpr Keys kSceneKeys = {"name",         "domain",        "gravity",    "restitution_rule",
+                             "contact_time", "speed_factor",  "balls",      "fill",
+                             "balls_file",   "walls",         "attractors", "field_interval",
+                             "precision",    "allow_overlap", "method",     "step",
+                             "tolerance",    "max_travel",    "until",      "description",
+                             "$schema"};
 constexpr Keys kDomainKeys = {"min", "max", "boundary", "restitution"};
 constexpr Keys kBallKeys = {"position", "velocity",    "acceleration", "radius",
                             "mass",     "restitution", "static"};
@@ -44,6 +46,8 @@ constexpr std::array<std::pair<std::string_view, RestitutionRule>, 5> kRules = {
      {"geometric", RestitutionRule::kGeometric}}};
 constexpr std::array<std::pair<std::string_view, Precision>, 2> kPrecisions = {
     {{"double", Precision::kDouble}, {"float", Precision::kFloat}}};
+constexpr std::array<std::pair<std::string_view, Method>, 2> kMethods = {
+    {{"event", Method::kEvent}, {"empirical", Method::kEmpirical}}};
 
 /// The enumerator that the string names.
 template <class Table>
@@ -181,6 +185,14 @@ class SceneReader {
             scene_.speed_factor = read_number(value, place);
         else if (key == "precision")
             scene_.precision = read_word(kPrecisions, value, place);
+        else if (key == "method")
+            scene_.method = read_word(kMethods, value, place);
+        else if (key == "step")
+            scene_.step = read_number(value, place);
+        else if (key == "tolerance")
+            scene_.tolerance = read_number(value, place);
+        else if (key == "max_travel")
+            scene_.max_travel = read_number(value, place);
         else if (key == "allow_overlap")
             scene_.allows_overlap = read_flag(value, place);
         else if (key == "field_interval")

@@ -173,6 +173,10 @@ std::string write_scene(const Scene& scene) {
     if (scene.contact_time) object.put("contact_time", *scene.contact_time);
     object.put_unless(usual.speed_factor, "speed_factor", scene.speed_factor);
     if (scene.precision == Precision::kFloat) object.raw("precision", "\"float\"");
+    if (scene.method == Method::kEmpirical) object.raw("method", "\"empirical\"");
+    if (scene.step) object.put("step", *scene.step);
+    if (scene.tolerance) object.put("tolerance", *scene.tolerance);
+    if (scene.max_travel) object.put("max_travel", *scene.max_travel);
     if (scene.allows_overlap) object.raw("allow_overlap", "true");
     put_list(object, "balls", scene.balls);
     put_list(object, "fill", scene.fills);

@@ -33,6 +33,9 @@ std::string to_json(const Summary& summary) {
         summary.compressibility_factor ? Json(*summary.compressibility_factor) : Json();
     json["windows"] = summary.windows;
     json["window_retries"] = summary.window_retries;
+    const auto count = [](const std::optional<std::uint64_t>& n) { return n ? Json(*n) : Json(); };
+    json["steps"] = count(summary.steps);
+    json["missed_collisions"] = count(summary.missed_collisions);
     json["peak_memory_bytes"] = summary.peak_memory_bytes;
     json["state_hash"] = fmt::format("{:016x}", summary.state_hash);
     // A scene's name may hold bytes that are no UTF-8; they must not cost the user the summary.

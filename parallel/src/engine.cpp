@@ -94,6 +94,7 @@ void Engine::count(const CollisionNote& note) {
 
 std::unique_ptr<Engine> make_engine(const Bodies& bodies, EngineStart start, const Executor& executor,
                                     const WorldOptions& options) {
+    if (bodies.physics.empirical) return make_empirical_engine(bodies, start, executor, options.count_missed);
     const int domains = choose_domains(bodies, executor, options.domains);
     if (domains <= 1) return std::make_unique<SerialEngine>(bodies, start, executor);
     // A halo as wide as the plane holds all there is.

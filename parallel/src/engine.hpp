@@ -57,4 +57,7 @@ class Engine {
 [[nodiscard]] std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, EngineStart start,
                                                            const Executor& executor, int domains, int halo);
 
+[[nodiscard]] std::unique_ptr<Engine> make_empirical_engine(const Bodies& bodies, const EngineStart& start,
+                                                            const Executor& executor, bool count_missed);
+
 }  // namespace carom

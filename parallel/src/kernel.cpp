@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bodies.hpp"
+#include "sights.hpp"
 
 namespace carom {
 namespace {
@@ -27,7 +28,7 @@ std::string boundary_text(const std::array<Boundary, 2>& boundary) {
 std::string bounds_text(const Kernel& k) {
     if (k.bounds_on_vectors) return "yes";
     return k.acceleration == Acceleration::kPerBall ? "no (accelerations differ from ball to ball)"
-                                                    : "no (too few cells or coordinates too large)";
+                                                    : "no (too few cells, or balls too small in them)";
 }
 
 }  // namespace
@@ -46,7 +47,9 @@ Kernel Bodies::kernel() const {
     k.has_static_balls = !is_static.empty();
     k.large_balls = large.size();
     k.boundary = physics.domain.boundary;
-    k.bounds_on_vectors = filters && k.acceleration != Acceleration::kPerBall;
+    Sights sights;
+    sights.clear(*this, {grid, whole(grid.x), whole(grid.y), 0});
+    k.bounds_on_vectors = sights.are_of_use() && k.acceleration != Acceleration::kPerBall;
     return k;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace carom {
 namespace {
@@ -78,6 +79,27 @@ Domain bounding_domain(const Scene& scene, std::span<const Ball> balls) {
     return {box, {Boundary::kOpen, Boundary::kOpen}, 1};
 }
 
+EmpiricalSteps empirical_steps(const Scene& scene, std::span<const Ball> balls) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Ball& b : balls)
+        if (!b.is_static) smallest = std::min(smallest, b.radius);
+    if (scene.tolerance && !(*scene.tolerance < smallest)) {
+        std::ostringstream rule;
+        rule << "must be less than the smallest moving ball's radius, " << smallest << ", is "
+             << *scene.tolerance;
+        throw SceneError("tolerance", rule.str());
+    }
+    // Beyond that steps no longer differ in the last digit of a double.
+    if (scene.step && !(*scene.step >= 1e-15 * scene.until))
+        throw SceneError("step", "must be at least 1e-15 of until");
+    const double travel = scene.max_travel.value_or(scene.step ? 0 : Scene::kUsualTravel);
+    EmpiricalSteps steps;
+    if (scene.step) steps.longest = *scene.step;
+    if (travel > 0) steps.travel = travel * smallest;
+    steps.tolerance = scene.tolerance.value_or(Scene::kUsualTolerance * smallest);
+    return steps;
+}
+
 }  // namespace
 
 Vec2 field_at(std::span<const Attractor> attractors, const Vec2& p) {
@@ -105,6 +127,7 @@ Physics derive_physics(const Scene& scene, std::span<const Ball> balls) {
     p.restitution_rule = scene.restitution_rule;
     p.speed_factor = scene.speed_factor;
     p.in_float = scene.precision == Precision::kFloat;
+    if (scene.method == Method::kEmpirical) p.empirical = empirical_steps(scene, balls);
     const double natural = std::min(crossing_time, falling_time);
     if (!(natural > 0)) throw SceneError("attractors", "pull so hard on a ball that no time is short enough");
     p.clock = Clock(kEpochCrossings * (std::isfinite(natural) ? natural : 1.0));

@@ -1,6 +1,8 @@
 // The numbers of a scene that every event needs, and the scales derived from it.
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <span>
 
 #include <carom/core/clock.hpp>
@@ -10,6 +12,13 @@ namespace carom {
 
 /// More renewals of the attractors' field than that no run survives.
 inline constexpr double kMostFieldUpdates = 1e9;
+
+/// What the empirical method goes by.
+struct EmpiricalSteps {
+    double longest = std::numeric_limits<double>::infinity();  ///< time
+    double travel = std::numeric_limits<double>::infinity();   ///< length, of no moving ball more in a step
+    double tolerance = 0;                                      ///< length
+};
 
 struct Physics {
     Domain domain;
@@ -22,6 +31,7 @@ struct Physics {
     bool loses_energy = false;  ///< some restitution, or the speed factor, is below 1
     double typical_virial = 1;  ///< of a collision: mass * speed * diameter
     Clock clock;
+    std::optional<EmpiricalSteps> empirical;  ///< where that is the method
 };
 
 /// The scene's numbers and scales. `balls` are all balls, fills included, at time 0.

@@ -89,6 +89,56 @@ TEST(Program, PrecisionOfTheSimulationAndOfItsOutput) {
     expect_one_error(folder.run({"run", "s.json", "--precision", "half"}), 2, "--precision");
 }
 
+// The other method: its result depends on its own options, not on threads; the summary says what it was.
+TEST(Program, EmpiricalMethod) {
+    const Folder folder;
+    folder.write("s.json", busy_scene("periodic"));
+    const auto run = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"run", "s.json", "--quiet"});
+        return folder.run(options).out;
+    };
+    const auto hash = [](const std::string& summary) { return summary_value(summary, "state_hash"); };
+    const std::string event = run({});
+    EXPECT_EQ(summary_value(event, "steps"), "null");
+    EXPECT_EQ(summary_value(event, "missed_collisions"), "null");
+    EXPECT_EQ(hash(run({"--method", "event"})), hash(event));
+
+    const std::string stepped = run({"--method", "empirical", "--step", "0.1"});
+    EXPECT_EQ(summary_value(stepped, "method"), "\"empirical\"");
+    EXPECT_NE(hash(stepped), hash(event));
+    EXPECT_NE(summary_value(stepped, "missed_collisions"), "null");
+    EXPECT_EQ(hash(run({"--method", "empirical", "--step", "0.1", "--threads", "1"})), hash(stepped));
+    EXPECT_NE(hash(run({"--method", "empirical", "--step", "0.05"})), hash(stepped));
+    EXPECT_NE(hash(run({"--method", "empirical", "--step", "0.1", "--tolerance", "1e-3"})), hash(stepped));
+    EXPECT_NE(hash(run({"--method", "empirical", "--step", "0.1", "--max-travel", "0.02"})), hash(stepped));
+    const std::string uncounted = run({"--method", "empirical", "--step", "0.1", "--no-missed"});
+    EXPECT_EQ(summary_value(uncounted, "missed_collisions"), "null");
+    EXPECT_EQ(hash(uncounted), hash(stepped));
+
+    EXPECT_THAT(folder.run({"validate", "s.json"}).out, HasSubstr("method        event\n"));
+    expect_one_error(folder.run({"run", "s.json", "--method", "exact"}), 2, "--method");
+    expect_one_error(folder.run({"run", "s.json", "--method", "empirical", "--tolerance", "0"}), 2,
+                     "--tolerance");
+    expect_one_error(folder.run({"run", "s.json", "--tolerance", "1e-6"}), 2, "--method empirical");
+    expect_one_error(folder.run({"run", "s.json", "--no-missed"}), 2, "--method empirical");
+    expect_one_error(folder.run({"run", "s.json", "--method", "empirical", "--max-travel", "0"}), 1,
+                     "max_travel: must be > 0");
+}
+
+TEST(Program, EmpiricalMethodFromTheScene) {
+    const Folder folder;
+    std::string text = kOneBall;
+    const std::string key = "\"until\"";
+    text.insert(text.find(key), "\"method\": \"empirical\", \"step\": 0.25, ");
+    folder.write("s.json", text);
+    EXPECT_THAT(folder.run({"validate", "s.json"}).out, HasSubstr("method        empirical, step 0.25\n"));
+    const std::string out = folder.run({"run", "s.json", "--quiet"}).out;
+    EXPECT_EQ(summary_value(out, "method"), "\"empirical\"");
+    EXPECT_EQ(summary_value(out, "steps"), "36");  // until 9
+    EXPECT_EQ(summary_value(out, "wall_collisions"), "3");
+    EXPECT_EQ(summary_value(folder.run({"run", "s.json", "--method", "event"}).out, "method"), "\"event\"");
+}
+
 TEST(Program, OverlapIsAllowedWhereTheSceneSaysSo) {
     const Folder folder;
     folder.write("s.json", R"({"allow_overlap": true, "until": 1,
@@ -162,6 +212,8 @@ TEST(Program, SummaryHasItsKeysInOrder) {
                                   "compressibility_factor",
                                   "windows",
                                   "window_retries",
+                                  "steps",
+                                  "missed_collisions",
                                   "peak_memory_bytes",
                                   "state_hash"}) {
         const std::size_t place = result.out.find(std::string("\"").append(key).append("\":"));

@@ -40,7 +40,7 @@ Checkpoint any_checkpoint(std::uint64_t seed, std::size_t balls) {
     s.scene_hash = generator();
     s.time = any_finite(generator);
     s.field_updates = generator();
-    s.counts = {generator(), generator(), generator(), generator(), generator(), generator()};
+    s.counts = {generator(), generator(), generator(), generator(), generator(), generator(), {}, {}};
     s.virial = {static_cast<std::int64_t>(generator()), generator(), seed % 3 == 0};
     for (std::size_t k = 0; k < balls; ++k) {
         s.anchors.push_back({any_pair(generator), any_pair(generator), any_time(generator),

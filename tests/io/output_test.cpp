@@ -39,12 +39,13 @@ TEST(Summary, HasItsKeysInOrder) {
     const auto json = nlohmann::ordered_json::parse(to_json(Summary{}));
     std::vector<std::string> keys;
     for (auto member = json.begin(); member != json.end(); ++member) keys.push_back(member.key());
-    EXPECT_THAT(keys, testing::ElementsAre("scene", "method", "precision", "threads", "balls", "walls",
-                                           "time", "ball_collisions", "wall_collisions", "events",
-                                           "wall_seconds", "collisions_per_second", "energy_initial",
-                                           "energy_final", "energy_relative_change", "momentum_initial",
-                                           "momentum_final", "max_overlap", "compressibility_factor",
-                                           "windows", "window_retries", "peak_memory_bytes", "state_hash"));
+    EXPECT_THAT(keys,
+                testing::ElementsAre("scene", "method", "precision", "threads", "balls", "walls", "time",
+                                     "ball_collisions", "wall_collisions", "events", "wall_seconds",
+                                     "collisions_per_second", "energy_initial", "energy_final",
+                                     "energy_relative_change", "momentum_initial", "momentum_final",
+                                     "max_overlap", "compressibility_factor", "windows", "window_retries",
+                                     "steps", "missed_collisions", "peak_memory_bytes", "state_hash"));
 }
 
 TEST(Summary, NumbersReadBackBitForBit) {

@@ -48,6 +48,10 @@ TEST(SceneFile, HasTheDefaultsOfTheFormat) {
     EXPECT_FALSE(scene.contact_time);
     EXPECT_EQ(scene.speed_factor, 1);
     EXPECT_EQ(scene.precision, Precision::kDouble);
+    EXPECT_EQ(scene.method, Method::kEvent);
+    EXPECT_EQ(scene.step, std::nullopt);
+    EXPECT_EQ(scene.tolerance, std::nullopt);
+    EXPECT_EQ(scene.max_travel, std::nullopt);
     EXPECT_FALSE(scene.allows_overlap);
     EXPECT_EQ(scene.field_interval, 0.02);
     EXPECT_EQ(scene.until, 10);
@@ -67,6 +71,7 @@ TEST(SceneFile, ReadsEveryKey) {
         "domain": {"min": [-50, 0], "max": [100, 200], "boundary": ["periodic", "wall"], "restitution": 0.25},
         "gravity": [0.5, -9.81], "restitution_rule": "geometric", "contact_time": 1e-3, "speed_factor": 0.9,
         "precision": "float", "allow_overlap": true,
+        "method": "empirical", "step": 0.01, "tolerance": 1e-5, "max_travel": 0.1,
         "balls": [{"position": [1, 2], "velocity": [3, 4], "acceleration": [5, 6], "radius": 0.75, "mass": 8,
                    "restitution": 0.5},
                   {"position": [9, 10], "static": true}],
@@ -89,6 +94,10 @@ TEST(SceneFile, ReadsEveryKey) {
     EXPECT_EQ(scene.contact_time, 1e-3);
     EXPECT_EQ(scene.speed_factor, 0.9);
     EXPECT_EQ(scene.precision, Precision::kFloat);
+    EXPECT_EQ(scene.method, Method::kEmpirical);
+    EXPECT_EQ(scene.step, 0.01);
+    EXPECT_EQ(scene.tolerance, 1e-5);
+    EXPECT_EQ(scene.max_travel, 0.1);
     EXPECT_TRUE(scene.allows_overlap);
     EXPECT_EQ(scene.field_interval, 0.125);
     EXPECT_EQ(scene.until, 1.5);
@@ -295,6 +304,10 @@ void expect_same_surroundings(const Scene& a, const Scene& b) {
     EXPECT_TRUE(same_bits(a.contact_time, b.contact_time));
     EXPECT_TRUE(same_bits(a.speed_factor, b.speed_factor));
     EXPECT_EQ(a.precision, b.precision);
+    EXPECT_EQ(a.method, b.method);
+    EXPECT_EQ(a.step, b.step);
+    EXPECT_EQ(a.tolerance, b.tolerance);
+    EXPECT_EQ(a.max_travel, b.max_travel);
     EXPECT_EQ(a.allows_overlap, b.allows_overlap);
     EXPECT_TRUE(same_bits(a.field_interval, b.field_interval));
     EXPECT_TRUE(same_bits(a.until, b.until));

@@ -18,6 +18,18 @@ std::uint64_t hash_of(const Scene& scene, const WorldOptions& options,
     return world.state_hash();
 }
 
+/// Every scene under the empirical method, with steps of three kinds.
+std::vector<NamedScene> empirical_scenes() {
+    std::vector<NamedScene> all = all_scenes();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        Scene& s = all[k].scene;
+        s.method = Method::kEmpirical;
+        if (k % 3 != 0) s.step = 0.07;
+        if (k % 3 == 2) s.max_travel = 0.1;
+    }
+    return all;
+}
+
 class Invariance : public testing::TestWithParam<NamedScene> {};
 
 TEST_P(Invariance, OfThreads) {
@@ -71,11 +83,14 @@ TEST_P(Invariance, OfReading) {
     EXPECT_EQ(world.state_hash(), hash_of(GetParam().scene, {.threads = 1}));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::ValuesIn(all_scenes()), [](const auto& param) {
+constexpr auto kNameOfScene = [](const auto& param) {
     std::string name = param.param.name;
     std::replace(name.begin(), name.end(), ' ', '_');
     return name;
-});
+};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::ValuesIn(all_scenes()), kNameOfScene);
+INSTANTIATE_TEST_SUITE_P(Empirical, Invariance, testing::ValuesIn(empirical_scenes()), kNameOfScene);
 
 TEST(StateHash, ChangesWithTheLastBitOfOneVelocity) {
     Scene scene = gas(1, {});

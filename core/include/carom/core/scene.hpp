@@ -21,6 +21,10 @@ enum class RestitutionRule : std::uint8_t { kMin, kMax, kProduct, kMean, kGeomet
 /// What happens at a pair of opposite sides of the domain.
 enum class Boundary : std::uint8_t { kWall, kPeriodic, kOpen };
 
+/// How collisions are found. kEvent: each at its true time. kEmpirical: at the end of a step, by the overlap
+/// that it left, and traced back from there; faster or slower, as accurate as the step is short.
+enum class Method : std::uint8_t { kEvent, kEmpirical };
+
 /// A disc. `acceleration` is its own, added to the scene's gravity. A static ball never moves and has, in
 /// effect, infinite mass.
 struct Ball {
@@ -87,7 +91,15 @@ struct Scene {
         contact_time;         ///< of the TC model; where absent it is derived, see default_contact_time
     double speed_factor = 1;  ///< whole velocity after a hit on a wall or a static ball, times this
     Precision precision = Precision::kDouble;  ///< in which balls' states are held
-    bool allows_overlap = false;               ///< whether balls may start inside each other and inside walls
+    Method method = Method::kEvent;
+    // Of the empirical method alone; where neither step nor max_travel is given, max_travel is kUsualTravel.
+    std::optional<double> step;  ///< time; with max_travel the longest step
+    std::optional<double>
+        max_travel;                   ///< of any ball in a step, in units of the smallest radius; 0: no limit
+    std::optional<double> tolerance;  ///< length; where absent, kUsualTolerance times the smallest radius
+    static constexpr double kUsualTravel = 0.2;
+    static constexpr double kUsualTolerance = 1e-6;
+    bool allows_overlap = false;  ///< whether balls may start inside each other and inside walls
     std::vector<Ball> balls;
     std::vector<Fill> fills;
     std::vector<Wall> walls;

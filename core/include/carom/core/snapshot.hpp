@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ struct Counts {
     std::uint64_t windows = 0;            ///< stretches of time through which a domain went on its own
     std::uint64_t window_retries = 0;     ///< of them those that a domain had to go through again
     std::uint64_t copied_collisions = 0;  ///< that a domain resolved for its halo, on top of all others
+    std::optional<std::uint64_t> steps;   ///< of the empirical method
+    /// Pairs of bodies, ball or wall, that met on their way through a step of the empirical method, ended it
+    /// apart and were not resolved in it; none where not counted.
+    std::optional<std::uint64_t> missed_collisions;
 };
 
 /// A moving ball at its last event.

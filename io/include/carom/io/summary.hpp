@@ -31,6 +31,8 @@ struct Summary {
     std::optional<double> compressibility_factor;
     std::uint64_t windows = 0;
     std::uint64_t window_retries = 0;
+    std::optional<std::uint64_t> steps;              ///< of the empirical method
+    std::optional<std::uint64_t> missed_collisions;  ///< by the empirical method, where counted
     std::uint64_t peak_memory_bytes = 0;
     std::uint64_t state_hash = 0;
 };

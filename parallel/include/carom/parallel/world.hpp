@@ -1,4 +1,5 @@
-// World: a scene in motion. Every collision is found at its true time and resolved in time order.
+// World: a scene in motion. Every collision is found at its true time and resolved in time order; by the
+// empirical method, where the scene asks for that, within a tolerance and as far as a step shows it.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +35,7 @@ struct WorldOptions {
         0;            ///< of the grid; 0: chosen from the scene. Changes speed, never a bit of the result
     int domains = 0;  ///< that the plane is cut in, to be simulated side by side; 0: chosen. Speed only
     int halo = 0;     ///< cells around a domain that it simulates as well; 0: chosen. Speed only
+    bool count_missed = true;  ///< whether the empirical method counts what it misses. Speed only
 };
 
 /// Something that must not be: what, where, by how much.
@@ -59,7 +61,8 @@ class World {
     World& operator=(World&&) noexcept;
 
     /// Resolves all events up to and including the given time, which must not lie in the past
-    /// (std::invalid_argument).
+    /// (std::invalid_argument). The empirical method goes through all steps that end by then; from the last
+    /// one on, balls are read in free flight.
     void advance_to(double time);
     /// advance_to(time() + dt)
     void step(double dt);
@@ -103,7 +106,8 @@ class World {
     [[nodiscard]] double max_overlap() const;
     /// Equal exactly when all positions and velocities at time() are bit-identical.
     [[nodiscard]] std::uint64_t state_hash() const;
-    /// Every broken invariant; empty in a sound world. Costs a pass over all pairs of neighbours.
+    /// Every broken invariant; empty in a sound world. That bodies overlap is none where the method is
+    /// empirical. Costs a pass over all pairs of neighbours.
     [[nodiscard]] std::vector<Violation> validate() const;
 
     /// Equal for scenes with the same course: of all but the name and the end.
@@ -111,6 +115,7 @@ class World {
     /// All that the future depends on, at time(). What is gone on from it is what would have been, to the
     /// bit, for any options on either side: states, collisions and all that follows from them. Counts of the
     /// work alone (events, windows, retries, copies) go on from here but depend on how the work is done.
+    /// Throws SnapshotError where the method is empirical: that keeps none.
     [[nodiscard]] Snapshot snapshot() const;
     /// Puts the world where the snapshot has it, earlier or later. Throws SnapshotError where that is of
     /// another scene or method or holds what cannot be; the world stays as it was. Not to be called from a
