@@ -46,11 +46,6 @@ void EventLoop::clear(const Region& region, const Time& now) {
             touched[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1;
 }
 
-void EventLoop::reserve(std::size_t balls) {
-    records_.reserve(balls);
-    locals_.reserve(balls);
-}
-
 void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end) {
     const auto i = size();
     BallRecord& r = records_.emplace_back(record);

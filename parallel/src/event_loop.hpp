@@ -71,8 +71,6 @@ class EventLoop {
     // ---- Filling: clear(), add() for every ball, then start() or predict_all().
     /// Empties the loop for a region. `now` is the time up to which the balls have been advanced.
     void clear(const Region& region, const Time& now);
-    /// Makes room for so many balls.
-    void reserve(std::size_t balls);
     /// Adds a ball whose cell lies in the region, `crossing_time` since the epoch of `now`. A copy is
     /// simulated until `end`.
     void add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end = kNever);
