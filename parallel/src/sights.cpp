@@ -69,8 +69,11 @@ Floats Sights::bounds(std::uint32_t i, const std::uint32_t* others, double now) 
     for (std::size_t k = 0; k < kLanes; ++k) std::memcpy(&rows[k], &rows_[each[k]], sizeof(Row));
     const Columns other = columns_of(rows);
     Floats sum = zero + diameter_;
-    if (!has_one_radius_)
-        for (std::size_t k = 0; k < kLanes; ++k) sum[k] = radius_[i] + radius_[others[k]];
+    if (!has_one_radius_) {
+        float sums[kLanes];
+        for (std::size_t k = 0; k < kLanes; ++k) sums[k] = radius_[i] + radius_[others[k]];
+        std::memcpy(&sum, sums, sizeof(sum));
+    }
 
     const Floats vx = own.vx - other.vx;
     const Floats vy = own.vy - other.vy;
