@@ -19,7 +19,7 @@ EmpiricalEngine::EmpiricalEngine(const Bodies& bodies, const EngineStart& start,
                                  bool count_missed)
     : Engine(bodies, start),
       executor_(executor),
-      steps_(*bodies.physics.empirical),
+      steps_(bodies.physics.empirical.value_or(EmpiricalSteps{})),
       clock_(bodies.physics.clock),
       counts_missed_(count_missed),
       grid_(bodies.grid) {
