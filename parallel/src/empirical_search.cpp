@@ -25,7 +25,7 @@ template <class Gap, class Rate>
 Contact trace_back(double duration, double tolerance, Gap&& gap, Rate&& rate) {
     const std::optional<double> free = detail::bisect_contact<double>(duration, tolerance, gap);
     if (!free) return {};
-    if (rate(*free) < 0) return {true, *free};
+    if (rate(*free) < 0) return {true, free};
     if (!(rate(duration) < 0)) return {true, std::nullopt};
     double parting = *free;
     double turned = duration;

@@ -18,10 +18,9 @@ void EventLoop::clear(const Region& region, const Time& now) {
     cells_.reset(static_cast<std::size_t>(region.size()));
     sights_.clear(bodies_, region);
     is_inside_.assign(static_cast<std::size_t>(region.size()), 0);
-    const std::int32_t row = region.x.size();
-    for (std::int32_t y = 1; y < region.y.size() - 1; ++y)
-        std::fill(is_inside_.begin() + y * row + 1,
-                  is_inside_.begin() + std::max(y * row + 1, (y + 1) * row - 1), 1);
+    const std::ptrdiff_t row = region.x.size();
+    for (std::ptrdiff_t y = 1; y < region.y.size() - 1; ++y)
+        std::fill_n(is_inside_.begin() + y * row + 1, std::max<std::ptrdiff_t>(row - 2, 0), std::uint8_t{1});
     epoch_ = now.epoch;
     now_ = now.offset;
     simultaneous_ = failed_ = false;

@@ -96,7 +96,8 @@ class EventLoopOf final : public EventLoop {
     void scan_large(std::uint32_t i, NextEvent& best) const;
     void scan_listed(std::uint32_t i, NextEvent& best) const;
     void scan_beside(std::uint32_t i, CellCoordinates side, NextEvent& best) const;
-    static constexpr std::size_t kMostCandidates = 9 * CellLists::kBlockSize;  // that are looked at together
+    static constexpr std::size_t kMostCandidates =
+        std::size_t{9} * CellLists::kBlockSize;  // that are looked at together
     struct Candidates {
         std::size_t count = 0;
         CellCoordinates reach{1, 1};  // how many cells away they may be
