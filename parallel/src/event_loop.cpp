@@ -113,11 +113,8 @@ void EventLoopOf<A>::renew_field(const Time& t) {
             advance(i, t);
             settle(i);
             events += locals_[i].owned;
-            acceleration_[i] = bodies_.physics.gravity + bodies_.own_acceleration_of(records_[i].id) +
-                               field_at(bodies_.attractors, {records_[i].anchor.x, records_[i].anchor.y});
-            if (!std::isfinite(length_squared(acceleration_[i])))
-                throw std::runtime_error("balls[" + std::to_string(records_[i].id) +
-                                         "]: the attractors' pull on it is too large for a number");
+            acceleration_[i] =
+                bodies_.acceleration_at(records_[i].id, {records_[i].anchor.x, records_[i].anchor.y});
         }
     }
 }
@@ -153,6 +150,20 @@ std::unique_ptr<EventLoop> make_event_loop(const Bodies& bodies) {
             break;
     }
     return std::make_unique<EventLoopOf<Acceleration::kNone>>(bodies);
+}
+
+Collision collision_of(const Bodies& bodies, double seconds, std::uint32_t id, std::uint32_t partner,
+                       const Vec2& centre, const Vec2& normal, double impulse) {
+    const Vec2 point = centre - bodies.radius.of(id) * normal;
+    const bool is_wall = partner >= bodies.count;
+    std::int32_t ignored = 0;
+    return {seconds,
+            is_wall ? CollisionKind::kWall : CollisionKind::kBall,
+            id,
+            is_wall ? partner - bodies.count : partner,
+            {bodies.grid.x.wrapped(point.x(), ignored), bodies.grid.y.wrapped(point.y(), ignored)},
+            normal,
+            impulse};
 }
 
 BallState state_at(const Bodies& bodies, const Anchor& anchor, const Periods& periods,
