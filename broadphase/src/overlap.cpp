@@ -105,11 +105,7 @@ class Walls {
         return touch(ball.radius, coordinate);
     }
 
-    [[nodiscard]] std::string name(std::size_t j) const {
-        constexpr std::array<const char*, 4> kSides = {"left", "right", "lower", "upper"};
-        if (j < tree_.walls().size()) return fmt::format("walls[{}]", j);
-        return fmt::format("the domain's {} side", kSides[j - tree_.walls().size()]);
-    }
+    [[nodiscard]] std::size_t count() const { return tree_.walls().size(); }
 
  private:
     template <class Visit>
@@ -139,15 +135,40 @@ std::vector<Overlap> overlaps_with(const Walls& walls, const Ball& ball, std::si
     return found;
 }
 
+/// Which overlaps count, and what the bodies are called; all and by index where there is no selection.
+class View {
+ public:
+    explicit View(const Selection* selection) : selection_(selection) {}
+
+    [[nodiscard]] bool has_ball(std::size_t i) const {
+        return selection_ == nullptr || selection_->balls[i] != 0;
+    }
+    [[nodiscard]] bool has_wall(std::size_t j) const {
+        return selection_ == nullptr || (j < selection_->walls.size() && selection_->walls[j] != 0);
+    }
+    [[nodiscard]] std::string ball(std::size_t i) const {
+        return fmt::format("balls[{}]", selection_ == nullptr ? i : selection_->ball_ids[i]);
+    }
+    /// Of a wall, or after `count` walls of a side.
+    [[nodiscard]] std::string wall(std::size_t j, std::size_t count) const {
+        constexpr std::array<const char*, 4> kSides = {"left", "right", "lower", "upper"};
+        if (j >= count) return fmt::format("the domain's {} side", kSides[j - count]);
+        return fmt::format("walls[{}]", selection_ == nullptr ? j : selection_->wall_ids[j]);
+    }
+
+ private:
+    const Selection* selection_;
+};
+
 /// The overlap of two balls with the smallest (i, j), its i the number of balls where there is none.
-Overlap first_overlap(const std::vector<Ball>& balls, const PairSearch& search) {
+Overlap first_overlap(const std::vector<Ball>& balls, const PairSearch& search, const View& view) {
     Overlap first{balls.size(), balls.size(), 0};
     const auto take = [&](const Overlap& found) {
         if (comes_before(found, first)) first = found;
     };
     for (std::size_t i = 0; i < balls.size() && first.i == balls.size(); ++i) {
         const double depth = depth_in_itself(balls[i], search.axes());
-        if (depth > kTouch * 2 * balls[i].radius) take({i, i, depth});
+        if (depth > kTouch * 2 * balls[i].radius && view.has_ball(i)) take({i, i, depth});
     }
     // Of one a and the balls of one cell, which come in order, the first overlap has the smallest pair, and
     // once both ids are larger than the smallest i so far none can be smaller. With both stops even a heap of
@@ -156,34 +177,39 @@ Overlap first_overlap(const std::vector<Ball>& balls, const PairSearch& search) 
         if (std::min(a.id, b.id) > first.i) return false;
         const double depth = depth_of(search, a, b);
         if (depth <= 0 || depth <= touch(a, b)) return true;
+        if (!view.has_ball(a.id) && !view.has_ball(b.id)) return true;
         take(in_order(a.id, b.id, depth));
         return false;
     });
     return first;
 }
 
-void check_balls(const std::vector<Ball>& balls, const Scene& scene) {
-    const Overlap first = first_overlap(balls, PairSearch(balls, scene));
+void check_balls(const std::vector<Ball>& balls, const Scene& scene, const View& view) {
+    const Overlap first = first_overlap(balls, PairSearch(balls, scene), view);
     if (first.i == balls.size()) return;
     const double radius_sum = balls[first.i].radius + balls[first.j].radius;
-    const std::string other =
-        first.i == first.j ? "its own periodic image" : fmt::format("balls[{}]", first.j);
-    throw SceneError(fmt::format("balls[{}]", first.i),
+    const std::string other = first.i == first.j ? "its own periodic image" : view.ball(first.j);
+    throw SceneError(view.ball(first.i),
                      fmt::format("overlaps {} by {:.6g} (distance {:.6g}, radii's sum {:.6g})", other,
                                  first.depth, radius_sum - first.depth, radius_sum));
 }
 
-void check_walls(const std::vector<Ball>& balls, const Scene& scene) {
+void check_walls(const std::vector<Ball>& balls, const Scene& scene, const View& view) {
     const Walls walls(scene);
     for (std::size_t i = 0; i < balls.size() && !walls.empty(); ++i) {
-        const std::vector<Overlap> found = overlaps_with(walls, balls[i], i);
-        if (found.empty()) continue;
-        const Overlap& first = found.front();
-        throw SceneError(
-            fmt::format("balls[{}]", i),
-            fmt::format("overlaps {} by {:.6g} (distance {:.6g}, radius {:.6g})", walls.name(first.j),
-                        first.depth, balls[i].radius - first.depth, balls[i].radius));
+        for (const Overlap& found : overlaps_with(walls, balls[i], i)) {
+            if (!view.has_ball(i) && !view.has_wall(found.j)) continue;
+            throw SceneError(view.ball(i),
+                             fmt::format("overlaps {} by {:.6g} (distance {:.6g}, radius {:.6g})",
+                                         view.wall(found.j, walls.count()), found.depth,
+                                         balls[i].radius - found.depth, balls[i].radius));
+        }
     }
+}
+
+void check_overlaps(const std::vector<Ball>& balls, const Scene& scene, const View& view) {
+    check_balls(balls, scene, view);
+    check_walls(balls, scene, view);
 }
 
 }  // namespace
@@ -215,8 +241,11 @@ std::vector<Overlap> find_wall_overlaps(const std::vector<Ball>& balls, const Sc
 }
 
 void check_overlaps(const std::vector<Ball>& balls, const Scene& scene) {
-    check_balls(balls, scene);
-    check_walls(balls, scene);
+    check_overlaps(balls, scene, View(nullptr));
+}
+
+void check_overlaps(const std::vector<Ball>& balls, const Scene& scene, const Selection& selection) {
+    check_overlaps(balls, scene, View(&selection));
 }
 
 double max_overlap(const std::vector<Ball>& balls, const Scene& scene) {

@@ -281,7 +281,7 @@ void check_rules(const Scene& scene) {
             require_range_of_float(scene.domain->box.max, kScene, "domain.max");
         }
     }
-    require_finite(scene.gravity, kScene, "gravity");
+    check_gravity(scene.gravity);
     if (scene.contact_time) require_not_negative(*scene.contact_time, kScene, "contact_time");
     if (!(scene.speed_factor > 0 && scene.speed_factor <= 1))
         throw SceneError("speed_factor", "must be > 0 and at most 1, is " + text(scene.speed_factor));
@@ -292,23 +292,36 @@ void check_rules(const Scene& scene) {
 
 }  // namespace
 
+void check(const Ball& ball, const Scene& scene, std::size_t index) {
+    const Place at{"balls", index};
+    check_ball(ball, at);
+    if (scene.domain) check_inside(ball, *scene.domain, at);
+    if (scene.precision != Precision::kFloat) return;
+    require_range_of_float(ball.position, at, "position");
+    require_range_of_float(ball.velocity, at, "velocity");
+}
+
+void check(const Wall& wall, const Scene& scene, std::size_t index) {
+    check_wall(wall, scene.domain, {"walls", index});
+}
+
+void check(const Attractor& attractor, std::size_t index) {
+    check_attractor(attractor, {"attractors", index});
+}
+
+void check_gravity(const Vec2& gravity) {
+    require_finite(gravity, kScene, "gravity");
+}
+
 void check(const Scene& scene) {
     check_rules(scene);
     if (static_cast<double>(scene.balls.size()) > kMostBalls)
         throw SceneError("balls", "must be at most 100000000, are " + std::to_string(scene.balls.size()));
-    for (std::size_t i = 0; i < scene.balls.size(); ++i) {
-        check_ball(scene.balls[i], {"balls", i});
-        if (scene.domain) check_inside(scene.balls[i], *scene.domain, {"balls", i});
-        if (scene.precision != Precision::kFloat) continue;
-        require_range_of_float(scene.balls[i].position, {"balls", i}, "position");
-        require_range_of_float(scene.balls[i].velocity, {"balls", i}, "velocity");
-    }
+    for (std::size_t i = 0; i < scene.balls.size(); ++i) check(scene.balls[i], scene, i);
     for (std::size_t i = 0; i < scene.fills.size(); ++i)
         check_fill(scene.fills[i], scene.domain, {"fill", i});
-    for (std::size_t i = 0; i < scene.walls.size(); ++i)
-        check_wall(scene.walls[i], scene.domain, {"walls", i});
-    for (std::size_t i = 0; i < scene.attractors.size(); ++i)
-        check_attractor(scene.attractors[i], {"attractors", i});
+    for (std::size_t i = 0; i < scene.walls.size(); ++i) check(scene.walls[i], scene, i);
+    for (std::size_t i = 0; i < scene.attractors.size(); ++i) check(scene.attractors[i], i);
     if (scene.domain) check_widths(scene, *scene.domain);
 }
 

@@ -107,6 +107,7 @@ struct SectionWriter {
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
     const Snapshot& s = checkpoint.snapshot;
+    if (s.edited) throw FileError(path, "cannot be written: it would not hold the bodies that were edited");
     if (s.method.size() > kNameSize)
         throw FileError(path, "cannot be written: the method's name is too long");
     Sink sink(path);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 namespace carom {
 
@@ -69,8 +68,7 @@ Vec2 Bodies::rounded_position(const Vec2& inside, Periods& away) const {
 Vec2 Bodies::acceleration_at(std::uint32_t id, const Vec2& place) const {
     const Vec2 a = physics.gravity + own_acceleration_of(id) + field_at(attractors, place);
     if (!std::isfinite(length_squared(a)))
-        throw std::runtime_error("balls[" + std::to_string(id) +
-                                 "]: the attractors' pull on it is too large for a number");
+        throw std::runtime_error(ball_name(id) + ": the attractors' pull on it is too large for a number");
     return a;
 }
 

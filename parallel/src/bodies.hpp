@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <carom/broadphase/grid.hpp>
@@ -56,6 +57,10 @@ struct Bodies {
     std::vector<Attractor> attractors;
     std::uint32_t count = 0;  ///< of all balls, static ones included
     std::uint32_t moving = 0;
+    // What the world calls them: rising numbers, of which those of removed bodies are left out. Within the
+    // engine bodies go by their index, which orders them alike. Empty where the two are the same.
+    std::vector<std::uint32_t> ball_ids;
+    std::vector<std::uint32_t> wall_ids;
     Property radius, mass, restitution;
     std::vector<std::uint8_t> is_static;  ///< one a ball; empty where none is
     std::vector<Vec2> own_acceleration;   ///< one a ball; empty where all are zero
@@ -71,6 +76,18 @@ struct Bodies {
     bool has_obstacles = false;     ///< static balls, walls or walled sides
     bool has_clear_images = false;  ///< whether the image in the next cell is the nearest one
 
+    [[nodiscard]] std::uint32_t ball_id(std::uint32_t index) const {
+        return ball_ids.empty() ? index : ball_ids[index];
+    }
+    /// Of a wall, or of a side, which follow the last wall.
+    [[nodiscard]] std::uint32_t wall_id(std::uint32_t index) const {
+        if (wall_ids.empty() || index < wall_ids.size()) return wall_ids.empty() ? index : wall_ids[index];
+        return wall_ids.back() + 1 + index - static_cast<std::uint32_t>(wall_ids.size());
+    }
+    /// As errors call it.
+    [[nodiscard]] std::string ball_name(std::uint32_t index) const {
+        return "balls[" + std::to_string(ball_id(index)) + "]";
+    }
     [[nodiscard]] bool fixes(std::uint32_t id) const { return !is_static.empty() && is_static[id] != 0; }
     [[nodiscard]] Vec2 own_acceleration_of(std::uint32_t id) const {
         return own_acceleration.empty() ? Vec2(Vec2::Zero()) : own_acceleration[id];

@@ -139,8 +139,8 @@ void EmpiricalEngine::place_end(std::uint32_t slot, const Vec2& end) {
         return !axis.periodic() || std::abs(x - axis.min()) < kMostPeriods * axis.length();
     };
     if (!fits(bodies_.grid.x, end.x()) || !fits(bodies_.grid.y, end.y()))
-        throw std::runtime_error("balls[" + std::to_string(id_[slot]) +
-                                 "]: flies through more than a thousand million periods in one step");
+        throw std::runtime_error(bodies_.ball_name(id_[slot]) +
+                                 ": flies through more than a thousand million periods in one step");
     Periods away;
     wrapped_x_[slot] = bodies_.grid.x.wrapped(end.x(), away.x);
     wrapped_y_[slot] = bodies_.grid.y.wrapped(end.y(), away.y);
@@ -233,7 +233,7 @@ void EmpiricalEngine::read(const Time& t, std::span<BallState> states) const {
 void EmpiricalEngine::audit(std::vector<Violation>& found) const {
     for (std::uint32_t i = 0; i < size(); ++i) {
         const auto report = [&](const std::string& what) {
-            found.push_back({"balls[" + std::to_string(id_[i]) + "]: " + what});
+            found.push_back({bodies_.ball_name(id_[i]) + ": " + what});
         };
         if (!std::isfinite(x_[i] + y_[i] + vx_[i] + vy_[i])) report("state is not finite");
         if (slot_of_[id_[i]] != i) report("is not where its id says");
@@ -244,7 +244,7 @@ void EmpiricalEngine::audit(std::vector<Violation>& found) const {
         const Vec2 centre = place(m.pair.slot);
         const Vec2 other = m.pair.other == kNowhere ? centre : place(m.pair.other);
         if (!(touch(m.pair, centre, other).gap < radius_of(m.pair.slot)))
-            found.push_back({"balls[" + std::to_string(id_[m.pair.slot]) + "]: is kept as overlapping body " +
+            found.push_back({bodies_.ball_name(id_[m.pair.slot]) + ": is kept as overlapping body " +
                              std::to_string(m.pair.partner) + ", which is elsewhere"});
     }
     if (!(now_ < next_) && size() > 0) found.push_back({"the next step lies in the past"});

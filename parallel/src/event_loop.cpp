@@ -123,7 +123,7 @@ template <Acceleration A>
 void EventLoopOf<A>::audit(std::vector<Violation>& found) const {
     for (std::uint32_t i = 0; i < size(); ++i) {
         const auto report_fault = [this, &found, i](const std::string& what) {
-            found.push_back({"balls[" + std::to_string(records_[i].id) + "]: " + what});
+            found.push_back({bodies_.ball_name(records_[i].id) + ": " + what});
         };
         const Anchor& a = records_[i].anchor;
         if (!std::isfinite(a.x + a.y + a.vx + a.vy)) report_fault("state is not finite");
@@ -159,8 +159,8 @@ Collision collision_of(const Bodies& bodies, double seconds, std::uint32_t id, s
     std::int32_t ignored = 0;
     return {seconds,
             is_wall ? CollisionKind::kWall : CollisionKind::kBall,
-            id,
-            is_wall ? partner - bodies.count : partner,
+            bodies.ball_id(id),
+            is_wall ? bodies.wall_id(partner - bodies.count) : bodies.ball_id(partner),
             {bodies.grid.x.wrapped(point.x(), ignored), bodies.grid.y.wrapped(point.y(), ignored)},
             normal,
             impulse};

@@ -97,7 +97,7 @@ void EventLoopOf<A>::pass_on_notes() {
 template <Acceleration A>
 void EventLoopOf<A>::refuse_wedged(std::uint32_t i) const {
     std::ostringstream what;
-    what << "balls[" << records_[i].id << "]: is wedged: more than " << most_events_at_once()
+    what << bodies_.ball_name(records_[i].id) << ": is wedged: more than " << most_events_at_once()
          << " events at time " << clock_.to_seconds(time_now())
          << " (it has no room to move, or loses energy without a contact_time)";
     throw std::runtime_error(what.str());
@@ -123,8 +123,8 @@ void EventLoopOf<A>::cross(std::uint32_t i) {
     const Crossing crossing{records_[i].crossing_time, records_[i].crossing_dx, records_[i].crossing_dy};
     relist(i, {a.cell.x + crossing.dx, a.cell.y + crossing.dy});
     if (std::max(std::abs(a.cell.x), std::abs(a.cell.y)) >= GridAxis::kFarthest)
-        throw std::runtime_error("balls[" + std::to_string(records_[i].id) +
-                                 "]: flies more than a thousand million cells without an event");
+        throw std::runtime_error(bodies_.ball_name(records_[i].id) +
+                                 ": flies more than a thousand million cells without an event");
     NextEvent best = records_[i].next;
     const CellCoordinates side{crossing.dx, crossing.dy};  // from where others come into view
     Candidates found;

@@ -20,11 +20,7 @@ TEST_P(BruteForceAudit, AgreesWithWideCells) {
     audit(GetParam().scene, 3, kFewerEvents);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, BruteForceAudit, testing::ValuesIn(feature_scenes()), [](const auto& param) {
-    std::string name = param.param.name;
-    std::replace(name.begin(), name.end(), ' ', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, BruteForceAudit, testing::ValuesIn(feature_scenes()), kNameOfScene);
 
 }  // namespace
 }  // namespace carom::test

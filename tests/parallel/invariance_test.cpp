@@ -83,12 +83,6 @@ TEST_P(Invariance, OfReading) {
     EXPECT_EQ(world.state_hash(), hash_of(GetParam().scene, {.threads = 1}));
 }
 
-constexpr auto kNameOfScene = [](const auto& param) {
-    std::string name = param.param.name;
-    std::replace(name.begin(), name.end(), ' ', '_');
-    return name;
-};
-
 INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::ValuesIn(all_scenes()), kNameOfScene);
 INSTANTIATE_TEST_SUITE_P(Empirical, Invariance, testing::ValuesIn(empirical_scenes()), kNameOfScene);
 

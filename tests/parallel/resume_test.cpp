@@ -136,11 +136,7 @@ TEST_P(Resume, RestoreGoesBackInTheSameWorld) {
     EXPECT_EQ(told[0], told[1]) << "the listener stays";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Resume, testing::ValuesIn(all_scenes()), [](const auto& param) {
-    std::string name = param.param.name;
-    std::replace(name.begin(), name.end(), ' ', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, Resume, testing::ValuesIn(all_scenes()), kNameOfScene);
 
 TEST(SceneHash, TellsScenesApart) {
     const Scene scene = gas(1, {});

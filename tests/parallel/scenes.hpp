@@ -65,6 +65,13 @@ struct NamedScene {
     friend std::ostream& operator<<(std::ostream& out, const NamedScene& s) { return out << s.name; }
 };
 
+/// What a parameterised test over such scenes is called.
+inline constexpr auto kNameOfScene = [](const auto& test) {
+    std::string name = test.param.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+};
+
 /// The feature space of the event method: 200 balls each.
 inline std::vector<NamedScene> feature_scenes() {
     std::vector<NamedScene> all;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <carom/core/scene.hpp>
@@ -35,6 +36,17 @@ struct Overlap {
 /// `balls[3]: overlaps balls[7] by 0.25 (distance 0.75, radii's sum 1)`. Linear even where everything
 /// overlaps.
 void check_overlaps(const std::vector<Ball>& balls, const Scene& scene);
+
+/// What of balls and walls is looked at, and how it is called.
+struct Selection {
+    std::vector<std::uint8_t> balls;      ///< one a ball: whether its overlaps count
+    std::vector<std::uint8_t> walls;      ///< one a wall
+    std::vector<std::uint32_t> ball_ids;  ///< instead of the index, one a ball
+    std::vector<std::uint32_t> wall_ids;
+};
+
+/// The same of the overlaps of at least one selected body.
+void check_overlaps(const std::vector<Ball>& balls, const Scene& scene, const Selection& selection);
 
 /// The deepest penetration: of two balls (not both static) in units of their radii's sum, of a ball (not
 /// static) into a wall or a walled side in units of its radius; 0 where nothing overlaps. No tolerance: balls

@@ -126,4 +126,11 @@ class SceneError : public std::runtime_error {
 /// Throws SceneError at the first fault.
 void check(const Scene& scene);
 
+/// The same of one body, with the place `balls[index]`, `walls[index]` or `attractors[index]`; of `scene` the
+/// domain and the precision count.
+void check(const Ball& ball, const Scene& scene, std::size_t index);
+void check(const Wall& wall, const Scene& scene, std::size_t index);
+void check(const Attractor& attractor, std::size_t index);
+void check_gravity(const Vec2& gravity);
+
 }  // namespace carom

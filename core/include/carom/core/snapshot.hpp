@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -42,6 +43,8 @@ struct SavedSum {
     bool is_lost = false;  ///< it has become too large to be told
 };
 
+struct Cast;  // of parallel: who takes part in a world
+
 /// Predicted events are no part of it: they are functions of the anchors, and are found anew.
 struct Snapshot {
     std::string method = "event";  ///< how balls are moved; at most 16 characters
@@ -55,6 +58,9 @@ struct Snapshot {
     std::vector<Time>
         last_collisions;  ///< of the least epoch where there was none; empty where the contact time is 0
     std::vector<Vec2> accelerations;  ///< whole ones; empty where they do not differ from ball to ball
+    /// Where edits have made the bodies others than the scene's: these, shared with the world; no file holds
+    /// them.
+    std::shared_ptr<const Cast> edited;
 };
 
 /// A snapshot that cannot be gone on from: of another scene or method, or not a state at all.

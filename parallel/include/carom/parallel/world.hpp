@@ -11,14 +11,14 @@
 
 #include <carom/core/scene.hpp>
 #include <carom/core/snapshot.hpp>
+#include <carom/parallel/edits.hpp>
 #include <carom/parallel/kernel.hpp>
+#include <carom/parallel/queries.hpp>
 
 namespace carom {
 
-enum class CollisionKind : std::uint8_t { kBall, kWall };
-
-/// One resolved collision. `j` is a ball's id for kBall (i < j, or j is static), a wall's index for kWall;
-/// the domain's sides are numbered after the scene's walls: left, right, bottom, top.
+/// One resolved collision. `j` is a ball's id for kBall (i < j, or j is static), a wall's for kWall; the
+/// domain's sides are numbered after the last wall: left, right, bottom, top.
 struct Collision {
     double time;
     CollisionKind kind;
@@ -78,7 +78,8 @@ class World {
     /// What of the engine the scene makes run; fixed when the world is built.
     [[nodiscard]] Kernel kernel() const;
 
-    /// State at time(); reading anchors nothing. Periodic positions lie inside the box.
+    /// State at time(); reading anchors nothing. Periodic positions lie inside the box. One entry a ball, in
+    /// the order of the ids; as long as no ball has been removed, a ball's id is its index.
     [[nodiscard]] PlaneVectors positions() const;
     [[nodiscard]] PlaneVectors velocities() const;
     /// The same rounded to float, for what draws or needs no more: 8 bytes a ball.
@@ -121,6 +122,60 @@ class World {
     /// another scene or method or holds what cannot be; the world stays as it was. Not to be called from a
     /// listener.
     void restore(const Snapshot& snapshot);
+
+    // ---- Who takes part. A ball keeps its id while it is there; in a scene that is its index.
+
+    /// One a ball, in the order of positions() and balls().
+    [[nodiscard]] std::vector<std::uint32_t> ball_ids() const;
+    [[nodiscard]] bool has_ball(std::uint32_t id) const;
+    /// Throws std::out_of_range where there is none of that id, as all below do.
+    [[nodiscard]] Ball ball(std::uint32_t id) const;
+    /// The walls that are there, and their ids in the same order.
+    [[nodiscard]] const std::vector<Wall>& walls() const;
+    [[nodiscard]] std::vector<std::uint32_t> wall_ids() const;
+    [[nodiscard]] const std::vector<Attractor>& attractors() const;
+    [[nodiscard]] const Vec2& gravity() const;
+    /// A number of the user's own; 0 until it is set, and again when the ball is removed.
+    [[nodiscard]] std::uint64_t user_data(std::uint32_t id) const;
+    void set_user_data(std::uint32_t id, std::uint64_t data);
+
+    // ---- Edits. Each takes place at time() and is an event of the balls that it names: they start anew from
+    // there. Walls and static balls that come, and changes of forces, are events of all balls. What is not
+    // edited keeps its bits; the same edits at the same time give the same bits however the world is stepped
+    // and cut up. Nothing is changed where one throws: SceneError on values that no scene may have, and on
+    // what would overlap (unless the scene allows that); std::out_of_range on ids that are not there;
+    // std::logic_error where the method is empirical. Not to be called from a listener.
+
+    /// All at once, at the cost of setting up a world of so many balls: one call with many is far cheaper
+    /// than many with one.
+    Added apply(const Edits& edits);
+    std::uint32_t add_ball(const Ball& ball);
+    void remove_ball(std::uint32_t id);
+    void set_position(std::uint32_t id, const Vec2& position);
+    void set_velocity(std::uint32_t id, const Vec2& velocity);
+    void set_acceleration(std::uint32_t id, const Vec2& acceleration);
+    void set_radius(std::uint32_t id, double radius);
+    void set_mass(std::uint32_t id, double mass);
+    void set_restitution(std::uint32_t id, double restitution);
+    /// Adds impulse / mass to the velocity.
+    void apply_impulse(std::uint32_t id, const Vec2& impulse);
+    std::uint32_t add_wall(const Wall& wall);
+    void remove_wall(std::uint32_t id);
+    void set_attractors(const std::vector<Attractor>& attractors);
+    void set_gravity(const Vec2& gravity);
+
+    // ---- What is where at time(), static balls included. Ids rise. The first question at a time sorts all
+    // balls by place, further ones are answered in logarithmic time. Periodic axes are gone round.
+
+    /// Balls whose discs touch the box, and those that touch a disc (a point, where its radius is 0).
+    [[nodiscard]] std::vector<std::uint32_t> balls_in(const Box& box) const;
+    [[nodiscard]] std::vector<std::uint32_t> balls_at(const Vec2& centre, double radius = 0) const;
+    /// None where there is no ball.
+    [[nodiscard]] std::optional<NearestBall> nearest_ball(const Vec2& point) const;
+    /// The first ball, wall or walled side along a ray of that length. Throws std::invalid_argument where
+    /// the direction is zero, or the way longer than a million periods of a periodic box.
+    [[nodiscard]] std::optional<RayHit> cast_ray(const Vec2& from, const Vec2& direction,
+                                                 double length) const;
 
     /// Called for every collision in the order of events. An empty function turns it off.
     void on_collision(std::function<void(const Collision&)> listener);

@@ -1,0 +1,273 @@
+// Edits of a running world: another cast, that goes on from where the bodies are. A ball that is not edited
+// keeps its anchor, so that nothing of its way changes but by what it meets.
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <carom/broadphase/overlap.hpp>
+
+#include "hash.hpp"
+#include "physics.hpp"
+#include "scene_hash.hpp"
+#include "world_state.hpp"
+
+namespace carom {
+namespace {
+
+constexpr std::uint32_t kNew = std::numeric_limits<std::uint32_t>::max();
+
+/// Someone of the next cast.
+template <class Body>
+struct Member {
+    std::uint32_t id = 0;
+    std::uint32_t was = kNew;  // its index until now
+    bool is_changed = false;   // in anything
+    bool is_edited = false;    // its way so far says nothing of its future
+    bool is_placed = false;    // it is new, elsewhere or of another size, and may overlap
+    Body body;
+};
+
+template <class Body>
+using Members = std::vector<Member<Body>>;
+
+/// The members by id, as they are before anything is added or removed.
+template <class Body>
+Member<Body>& find(Members<Body>& members, std::uint32_t id, const char* list) {
+    const auto at = std::ranges::lower_bound(members, id, {}, &Member<Body>::id);
+    if (at == members.end() || at->id != id)
+        throw std::out_of_range(std::string(list) + "[" + std::to_string(id) + "]: is not there");
+    return *at;
+}
+
+template <class Body>
+void remove(Members<Body>& members, std::vector<std::uint32_t> ids, const char* list) {
+    std::ranges::sort(ids);
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        find(members, ids[k], list);
+        if (k > 0 && ids[k] == ids[k - 1])
+            throw std::invalid_argument(std::string(list) + "[" + std::to_string(ids[k]) +
+                                        "]: is removed twice");
+    }
+    std::erase_if(members, [&ids](const Member<Body>& m) { return std::ranges::binary_search(ids, m.id); });
+}
+
+/// Gives what is added the least ids that nobody had before this batch.
+template <class Body>
+std::vector<std::uint32_t> add(Members<Body>& members, const std::vector<std::uint32_t>& taken,
+                               const std::vector<Body>& added) {
+    std::vector<std::uint32_t> ids;
+    auto next = taken.begin();
+    std::uint32_t id = 0;
+    for (const Body& body : added) {
+        for (; next != taken.end() && *next == id; ++next) ++id;
+        ids.push_back(id);
+        members.push_back({id++, kNew, true, true, true, body});
+    }
+    std::ranges::sort(members, {}, &Member<Body>::id);
+    return ids;
+}
+
+template <class Body>
+std::vector<std::uint32_t> ids_of(const Members<Body>& members) {
+    std::vector<std::uint32_t> ids;
+    ids.reserve(members.size());
+    for (const Member<Body>& m : members) ids.push_back(m.id);
+    return ids;
+}
+
+/// Empty where every id is the index.
+std::vector<std::uint32_t> needed(std::vector<std::uint32_t> ids) {
+    return ids.empty() || ids.back() + 1 == ids.size() ? std::vector<std::uint32_t>() : std::move(ids);
+}
+
+template <class Body>
+std::vector<Body> bodies_of(const Members<Body>& members) {
+    std::vector<Body> bodies;
+    bodies.reserve(members.size());
+    for (const Member<Body>& m : members) bodies.push_back(m.body);
+    return bodies;
+}
+
+void change(Member<Ball>& m, const BallChange& c) {
+    m.is_placed = m.is_placed || c.position || c.radius;
+    m.is_edited = m.is_edited || m.is_placed || c.velocity || c.acceleration;
+    if (c.position) m.body.position = *c.position;
+    if (c.velocity) m.body.velocity = *c.velocity;
+    if (c.acceleration) m.body.acceleration = *c.acceleration;
+    if (c.radius) m.body.radius = *c.radius;
+    if (c.mass) m.body.mass = *c.mass;
+    if (c.restitution) m.body.restitution = *c.restitution;
+    m.is_changed = true;
+}
+
+/// What is there may have come, by rounding, to where no scene may start: only what is placed has to fit.
+void check_edited(const Members<Ball>& balls, const Members<Wall>& walls, const Edits& edits,
+                  const Scene& rules) {
+    Scene anywhere;
+    anywhere.precision = rules.precision;
+    Scene inside = anywhere;
+    inside.domain = rules.domain;
+    for (const Member<Ball>& m : balls) {
+        if (!m.is_changed) continue;
+        check(m.body, m.is_placed ? inside : anywhere, m.id);
+        for (int axis = 0; inside.domain && axis < 2; ++axis) {
+            const double width = inside.domain->box.max[axis] - inside.domain->box.min[axis];
+            if (inside.domain->boundary[axis] == Boundary::kPeriodic && 2 * m.body.radius > width)
+                throw SceneError("balls[" + std::to_string(m.id) + "].radius",
+                                 "must be at most half the periodic box's width, is " + shown(m.body.radius));
+        }
+    }
+    for (const Member<Wall>& m : walls)
+        if (m.is_changed) check(m.body, inside, m.id);
+    for (std::size_t k = 0; edits.attractors && k < edits.attractors->size(); ++k)
+        check((*edits.attractors)[k], k);
+    if (edits.gravity) check_gravity(*edits.gravity);
+}
+
+/// The scales of time and virial are the scene's for ever; losses that come with a body bring the contact
+/// time that a scene with them would have.
+Physics physics_of(const Physics& before, const Scene& rules, const std::vector<Ball>& balls) {
+    const Physics derived = derive_physics(rules, balls);
+    Physics p = before;
+    p.gravity = rules.gravity;
+    p.loses_energy = derived.loses_energy;
+    p.empirical = derived.empirical;
+    if (p.contact_time == 0) p.contact_time = derived.contact_time;
+    if (p.rest_time == 0 || (before.contact_time == 0 && p.contact_time > 0)) p.rest_time = derived.rest_time;
+    return p;
+}
+
+/// Takes the moving balls of one cast, in order, into a snapshot of another's.
+class Carrier {
+ public:
+    Carrier(Snapshot from, const Bodies& before, const Bodies& after, const Time& now)
+        : from_(std::move(from)), before_(before), after_(after), now_(now) {
+        to_.time = from_.time;
+        to_.counts = from_.counts;
+        to_.virial = from_.virial;
+        std::uint32_t rank = 0;
+        for (std::uint32_t i = 0; i < before.count; ++i) ranks_.push_back(before.fixes(i) ? rank : rank++);
+    }
+
+    /// A ball that goes on as it is.
+    void keep(std::uint32_t was) {
+        const std::uint32_t k = ranks_[was];
+        push(from_.anchors[k], last_collision(was),
+             from_.accelerations.empty() ? before_.physics.gravity : from_.accelerations[k]);
+    }
+    /// A ball that starts here and now; `periods` is how many it has passed so far.
+    void start(std::uint32_t index, const Ball& b, Periods periods, const Time& last_collision) {
+        const Vec2 position = after_.held_position(b.position, periods);
+        push({position, after_.held_velocity(b.velocity), now_, periods.x, periods.y}, last_collision,
+             after_.acceleration_at(index, position));
+    }
+    /// One that was there.
+    void start_anew(std::uint32_t index, std::uint32_t was, const Ball& b, const BallState& s) {
+        const auto passed = [](const GridAxis& axis, double way) {
+            return axis.periodic() ? static_cast<std::int32_t>(std::lround(way / axis.length())) : 0;
+        };
+        const Vec2 way = s.unwrapped - s.position;
+        start(index, b, {passed(after_.grid.x, way.x()), passed(after_.grid.y, way.y())},
+              last_collision(was));
+    }
+    [[nodiscard]] Snapshot take() { return std::move(to_); }
+
+ private:
+    [[nodiscard]] Time last_collision(std::uint32_t was) const {
+        return from_.last_collisions.empty() ? BallExtra().last_collision
+                                             : from_.last_collisions[ranks_[was]];
+    }
+    void push(const SavedAnchor& anchor, const Time& last_collision, const Vec2& acceleration) {
+        to_.anchors.push_back(anchor);
+        if (after_.physics.contact_time > 0) to_.last_collisions.push_back(last_collision);
+        if (after_.accelerates_each()) to_.accelerations.push_back(acceleration);
+    }
+
+    Snapshot from_;
+    Snapshot to_;
+    const Bodies& before_;
+    const Bodies& after_;
+    Time now_;
+    std::vector<std::uint32_t> ranks_;  // among the moving balls, by index
+};
+
+/// How often the attractors' field has been renewed by then.
+std::uint64_t updates_until(double seconds, double interval) {
+    auto updates = static_cast<std::uint64_t>(seconds / interval);
+    while (double(updates) * interval > seconds) --updates;
+    while (double(updates + 1) * interval <= seconds) ++updates;
+    return updates;
+}
+
+}  // namespace
+
+Added World::State::apply(const Edits& edits) {
+    if (bodies().physics.empirical)
+        throw std::logic_error("the empirical method does not take edits of a running world");
+    Members<Ball> balls;
+    balls.reserve(size() + edits.added_balls.size());
+    const std::vector<BallState>& all = states();
+    for (std::uint32_t i = 0; i < size(); ++i)
+        balls.push_back({bodies().ball_id(i), i, false, false, false, ball(i, all[i])});
+    Members<Wall> walls;
+    for (std::uint32_t w = 0; w < bodies().walls.size(); ++w)
+        walls.push_back({bodies().wall_id(w), w, false, false, false, bodies().walls[w]});
+
+    const std::vector<std::uint32_t> taken_balls = ids_of(balls);
+    const std::vector<std::uint32_t> taken_walls = ids_of(walls);
+    for (const BallChange& c : edits.changed_balls) change(find(balls, c.id, "balls"), c);
+    remove(balls, edits.removed_balls, "balls");
+    remove(walls, edits.removed_walls, "walls");
+    Added added;
+    added.balls = add(balls, taken_balls, edits.added_balls);
+    added.walls = add(walls, taken_walls, edits.added_walls);
+
+    Scene rules = cast->rules;
+    rules.walls = bodies_of(walls);
+    if (edits.attractors) rules.attractors = *edits.attractors;
+    if (edits.gravity) rules.gravity = *edits.gravity;
+    check_edited(balls, walls, edits, rules);
+    const std::vector<Ball> now_there = bodies_of(balls);
+    if (!rules.allows_overlap) {
+        Selection selected{{}, {}, ids_of(balls), ids_of(walls)};
+        for (const Member<Ball>& m : balls) selected.balls.push_back(m.is_placed ? 1 : 0);
+        for (const Member<Wall>& m : walls) selected.walls.push_back(m.is_placed ? 1 : 0);
+        check_overlaps(now_there, rules, selected);
+    }
+
+    const Physics physics = physics_of(bodies().physics, rules, now_there);
+    auto next = std::make_shared<Cast>(rules, physics, now_there, wanted.cell_size);
+    next->bodies.ball_ids = needed(ids_of(balls));
+    next->bodies.wall_ids = needed(ids_of(walls));
+    next->is_edited = true;
+    next->in_equilibrium = false;  // what was counted until now is of another gas
+    next->deepest_overlap = std::max(next->deepest_overlap, cast->deepest_overlap);
+    next->hash_of_scene = cast->hash_of_scene;
+    next->hash =
+        (Hash{cast->hash} << carom::scene_hash(rules, physics, now_there, executor) << seconds).value;
+    // What is hit where it stands is hit by flights that start before it stood there, and other forces bend
+    // all flights: then all balls start anew.
+    const auto is_new_obstacle = [](const Member<Ball>& m) { return m.is_placed && m.body.is_static; };
+    const bool all_start_anew = edits.attractors || edits.gravity || !edits.added_walls.empty() ||
+                                std::ranges::any_of(balls, is_new_obstacle);
+    Carrier carrier(snapshot(), bodies(), next->bodies, now);
+    for (std::uint32_t i = 0; i < balls.size(); ++i) {
+        const Member<Ball>& m = balls[i];
+        if (m.body.is_static) continue;
+        if (m.was == kNew)
+            carrier.start(i, m.body, {}, BallExtra().last_collision);
+        else if (all_start_anew || m.is_edited)
+            carrier.start_anew(i, m.was, m.body, all[m.was]);
+        else
+            carrier.keep(m.was);
+    }
+    Snapshot s = carrier.take();
+    s.scene_hash = next->hash;
+    s.field_updates = rules.attractors.empty() ? 0 : updates_until(seconds, rules.field_interval);
+    continue_with(next, s);
+    for (const std::uint32_t id : edits.removed_balls)
+        if (id < user_data.size()) user_data[id] = 0;
+    return added;
+}
+
+}  // namespace carom

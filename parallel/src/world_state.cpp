@@ -1,0 +1,248 @@
+// Builds a world from a scene or a snapshot, keeps its time and the field's schedule, reads its balls.
+#include "world_state.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include <carom/broadphase/overlap.hpp>
+#include <carom/broadphase/placement.hpp>
+
+#include "physics.hpp"
+#include "scene_hash.hpp"
+
+namespace carom {
+namespace {
+
+std::vector<Ball> place_checked(const Scene& scene) {
+    check(scene);
+    std::vector<Ball> balls = place_balls(scene);
+    if (!scene.allows_overlap) check_overlaps(balls, scene);
+    if (scene.precision == Precision::kFloat) {
+        for (Ball& b : balls) {
+            b.position = rounded_to_float(b.position);
+            b.velocity = rounded_to_float(b.velocity);
+        }
+    }
+    return balls;
+}
+
+/// The diameter that the cells follow: the largest, but for a few balls that may be larger than a cell.
+double listed_diameter(const std::vector<Ball>& balls) {
+    constexpr std::size_t kMostLarge = 16;
+    std::vector<double> diameters;
+    diameters.reserve(balls.size());
+    for (const Ball& b : balls)
+        if (!b.is_static) diameters.push_back(2 * b.radius);
+    if (diameters.empty()) return 0;
+    const std::size_t larger = diameters.size() > 4 * kMostLarge ? kMostLarge : 0;
+    std::ranges::nth_element(diameters, diameters.begin() + static_cast<std::ptrdiff_t>(larger),
+                             std::greater<>());
+    return diameters[larger];
+}
+
+bool is_free(const Scene& scene, const std::vector<Ball>& balls) {
+    return scene.gravity.isZero(0) && scene.attractors.empty() &&
+           std::ranges::all_of(balls, [](const Ball& b) { return b.acceleration.isZero(0); });
+}
+
+/// A scene without its balls.
+Scene rules_of(const Scene& scene) {
+    Scene rules;
+    rules.domain = scene.domain;
+    rules.gravity = scene.gravity;
+    rules.restitution_rule = scene.restitution_rule;
+    rules.contact_time = scene.contact_time;
+    rules.speed_factor = scene.speed_factor;
+    rules.precision = scene.precision;
+    rules.method = scene.method;
+    rules.step = scene.step;
+    rules.max_travel = scene.max_travel;
+    rules.tolerance = scene.tolerance;
+    rules.allows_overlap = scene.allows_overlap;
+    rules.walls = scene.walls;
+    rules.attractors = scene.attractors;
+    rules.field_interval = scene.field_interval;
+    rules.until = scene.until;
+    return rules;
+}
+
+}  // namespace
+
+std::string shown(double number) {
+    std::ostringstream text;
+    text << number;
+    return text.str();
+}
+
+Cast::Cast(Scene scene, const Physics& physics, const std::vector<Ball>& balls, double cell_size)
+    : rules(std::move(scene)),
+      bodies(physics, balls, rules.walls, rules.attractors,
+             choose_grid(physics.domain, balls.size(), listed_diameter(balls), cell_size)),
+      in_equilibrium(!physics.loses_energy && is_free(rules, balls)) {
+    for (std::uint32_t i = 0; i < bodies.count; ++i)
+        if (bodies.fixes(i))
+            fixed_states.emplace_back(i, BallState{bodies.fixed[i], balls[i].velocity, bodies.fixed[i]});
+    if (rules.allows_overlap) deepest_overlap = max_overlap(balls, rules);
+}
+
+World::State::State(const Scene& scene, const WorldOptions& options, const Snapshot* snapshot)
+    : wanted(options), executor(options.threads) {
+    const std::vector<Ball> balls = place_checked(scene);
+    const Physics physics = derive_physics(scene, balls);
+    auto first = std::make_shared<Cast>(rules_of(scene), physics, balls, options.cell_size);
+    first->hash = first->hash_of_scene = carom::scene_hash(first->rules, physics, balls, executor);
+    cast = scene_cast = first;
+    if (snapshot != nullptr)
+        restore(*snapshot);
+    else
+        engine = make_engine(bodies(), start_at_zero(bodies(), balls), executor, options);
+}
+
+Snapshot World::State::snapshot() const {
+    Snapshot s;
+    s.scene_hash = cast->hash;
+    s.time = seconds;
+    s.field_updates = field_updates;
+    s.counts = engine->counts();
+    s.virial = engine->saved_virial();
+    if (cast->is_edited) s.edited = cast;
+    engine->save(now, s);
+    return s;
+}
+
+void World::State::restore(const Snapshot& s) {
+    check(s);
+    continue_with(s.edited ? s.edited : scene_cast, s);
+}
+
+void World::State::check(const Snapshot& s) const {
+    const Physics& physics = bodies().physics;
+    if (physics.empirical) throw SnapshotError("cannot be gone on from by the empirical method");
+    if (s.method != "event") throw SnapshotError("is of the method '" + s.method + "'");
+    const Cast& of = s.edited ? *s.edited : *scene_cast;
+    if (of.hash != s.scene_hash || of.hash_of_scene != scene_cast->hash_of_scene)
+        throw SnapshotError("is of another scene");
+    if (!(s.time >= 0) || physics.clock.from_seconds(s.time) == kNever)
+        throw SnapshotError("is at no time that the scene comes to");
+    const bool fits = of.rules.attractors.empty()
+                          ? s.field_updates == 0
+                          : double(s.field_updates) * of.rules.field_interval <= s.time &&
+                                s.time < double(s.field_updates + 1) * of.rules.field_interval;
+    if (!fits) throw SnapshotError("has another number of field updates than its time");
+}
+
+void World::State::continue_with(std::shared_ptr<const Cast> next, const Snapshot& s) {
+    std::unique_ptr<Engine> made =
+        make_engine(next->bodies, start_from(next->bodies, s, executor), executor, wanted);
+    if (listener) made->listen(listener);
+    engine = std::move(made);
+    cast = std::move(next);
+    field_updates = s.field_updates;
+    seconds = s.time;
+    now = bodies().physics.clock.from_seconds(seconds);
+    forget();
+}
+
+void World::State::forget() {
+    is_read_ = false;
+    places_.reset();
+}
+
+const std::vector<BallState>& World::State::states() const {
+    const std::lock_guard lock(reading_);
+    if (!is_read_) {
+        states_.resize(size());
+        for (const auto& [index, state] : cast->fixed_states) states_[index] = state;
+        engine->read(now, states_);
+        is_read_ = true;
+    }
+    return states_;
+}
+
+const PlaceIndex& World::State::places() const {
+    const std::vector<Ball> all = balls();
+    const std::lock_guard lock(reading_);
+    if (!places_) places_ = std::make_unique<PlaceIndex>(all, cast->rules);
+    return *places_;
+}
+
+Ball World::State::ball(std::uint32_t index, const BallState& s) const {
+    const Bodies& b = bodies();
+    return {s.position,         s.velocity,       b.own_acceleration_of(index),
+            b.radius.of(index), b.mass.of(index), b.restitution.of(index),
+            b.fixes(index)};
+}
+
+std::vector<Ball> World::State::balls() const {
+    const std::vector<BallState>& all = states();
+    std::vector<Ball> out(size());
+    executor.for_ranges(out.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) out[i] = ball(static_cast<std::uint32_t>(i), all[i]);
+    });
+    return out;
+}
+
+std::uint32_t World::State::index_of_ball(std::uint32_t id) const {
+    const std::vector<std::uint32_t>& ids = bodies().ball_ids;
+    const auto at = std::ranges::lower_bound(ids, id);
+    const bool is_there = ids.empty() ? id < size() : at != ids.end() && *at == id;
+    if (!is_there) throw std::out_of_range("balls[" + std::to_string(id) + "]: is not there");
+    return ids.empty() ? id : static_cast<std::uint32_t>(at - ids.begin());
+}
+
+std::vector<std::uint32_t> World::State::named(std::vector<std::uint32_t> indices) const {
+    for (std::uint32_t& i : indices) i = bodies().ball_id(i);
+    return indices;
+}
+
+void World::State::advance_to(double time) {
+    const Clock& clock = bodies().physics.clock;
+    const Time end = clock.from_seconds(time);
+    if (end == kNever)
+        throw std::invalid_argument("time " + shown(time) + " is beyond what this scene's clock can tell");
+    const double field_interval = cast->rules.field_interval;
+    if (!bodies().attractors.empty() && time > kMostFieldUpdates * field_interval)
+        throw std::invalid_argument("time " + shown(time) +
+                                    " is more than a thousand million of the scene's field_interval away");
+    forget();
+    Time horizon = kNever;
+    if (!bodies().attractors.empty()) {
+        for (;; ++field_updates) {
+            const double next = double(field_updates + 1) * field_interval;
+            horizon = clock.from_seconds(next);
+            if (!(next <= time)) break;
+            engine->advance_to(horizon, horizon);
+            engine->renew_field(horizon);
+        }
+    }
+    engine->advance_to(end, horizon);
+    now = end;
+    seconds = time;
+}
+
+std::vector<Vector2<float>> World::State::in_float(Vec2 BallState::* part) const {
+    const std::vector<BallState>& all = states();
+    std::vector<Vector2<float>> out(all.size());
+    executor.for_ranges(out.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) out[i] = (all[i].*part).cast<float>();
+    });
+    return out;
+}
+
+double World::State::rounding_of_overlaps() const {
+    constexpr double kInDouble = 1e-9;
+    if (!bodies().physics.in_float) return kInDouble;
+    double smallest = std::numeric_limits<double>::infinity();
+    double farthest = 0;
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        smallest = std::min(smallest, bodies().radius.of(i));
+        farthest = std::max(farthest, states()[i].position.cwiseAbs().maxCoeff());
+    }
+    // Each of two centres is rounded by half an ulp along either axis.
+    return kInDouble + 2 * double(std::numeric_limits<float>::epsilon()) * farthest / (2 * smallest);
+}
+
+}  // namespace carom

@@ -1,0 +1,127 @@
+// What a World holds: the bodies that take part, the engine that moves them, the time, and the states as they
+// were read last.
+#pragma once
+
+#include <carom/parallel/world.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <carom/broadphase/overlap.hpp>
+
+#include "bodies.hpp"
+#include "engine.hpp"
+#include "executor.hpp"
+#include "place_index.hpp"
+
+namespace carom {
+
+/// Who takes part, and by which rules. Never changed: an edit makes another.
+struct Cast {
+    Cast(Scene rules, const Physics& physics, const std::vector<Ball>& balls, double cell_size);
+
+    Scene rules;  ///< without balls and fills
+    Bodies bodies;
+    std::uint64_t hash = 0;           ///< of the scene; of what edits have made of it
+    std::uint64_t hash_of_scene = 0;  ///< at the beginning
+    bool is_edited = false;
+    /// Neither losses nor forces, so that one temperature holds throughout.
+    bool in_equilibrium = false;
+    double deepest_overlap = 0;  ///< at the beginning or after edits, where overlaps are allowed
+    std::vector<std::pair<std::uint32_t, BallState>> fixed_states;
+};
+
+/// A sum that carries what its terms lose (Neumaier 1974).
+struct CompensatedSum {
+    double sum = 0;
+    double lost = 0;
+    CompensatedSum& operator+=(double x) {
+        const double next = sum + x;
+        lost += std::abs(sum) >= std::abs(x) ? (sum - next) + x : (x - next) + sum;
+        sum = next;
+        return *this;
+    }
+    CompensatedSum& operator+=(const CompensatedSum& other) {
+        *this += other.sum;
+        lost += other.lost;
+        return *this;
+    }
+    [[nodiscard]] double value() const { return sum + lost; }
+};
+
+/// A number as errors show it.
+[[nodiscard]] std::string shown(double number);
+
+class World::State {
+ public:
+    /// From the scene's beginning where `snapshot` is null.
+    State(const Scene& scene, const WorldOptions& options, const Snapshot* snapshot);
+
+    [[nodiscard]] Snapshot snapshot() const;
+    void restore(const Snapshot& s);
+    void advance_to(double time);
+    [[nodiscard]] Added apply(const Edits& edits);
+
+    [[nodiscard]] const Bodies& bodies() const { return cast->bodies; }
+    [[nodiscard]] std::size_t size() const { return bodies().count; }
+    /// Every ball's state now, by index; read once for each time.
+    [[nodiscard]] const std::vector<BallState>& states() const;
+    [[nodiscard]] Ball ball(std::uint32_t index, const BallState& s) const;
+    [[nodiscard]] std::vector<Ball> balls() const;
+    /// The index of a ball by its id. Throws std::out_of_range where it is not there.
+    [[nodiscard]] std::uint32_t index_of_ball(std::uint32_t id) const;
+    /// Ids instead of indices.
+    [[nodiscard]] std::vector<std::uint32_t> named(std::vector<std::uint32_t> indices) const;
+    [[nodiscard]] std::vector<Vector2<float>> in_float(Vec2 BallState::* part) const;
+    [[nodiscard]] double max_overlap() const { return carom::max_overlap(balls(), cast->rules); }
+    /// How deep rounding alone may let two bodies overlap, in units of their radii's sum.
+    [[nodiscard]] double rounding_of_overlaps() const;
+    /// Of the balls now; made once for each time.
+    [[nodiscard]] const PlaceIndex& places() const;
+
+    /// Sum of quantity(index, state) over all moving balls, compensated.
+    template <class Quantity>
+    [[nodiscard]] double sum(Quantity&& quantity) const {
+        const std::vector<BallState>& all = states();
+        return executor
+            .sum(size(), CompensatedSum{},
+                 [&](std::size_t first, std::size_t last) {
+                     CompensatedSum s;
+                     for (std::size_t i = first; i < last; ++i) {
+                         const auto index = static_cast<std::uint32_t>(i);
+                         if (!bodies().fixes(index)) s += quantity(index, all[i]);
+                     }
+                     return s;
+                 })
+            .value();
+    }
+
+    WorldOptions wanted;
+    Executor executor;
+    std::shared_ptr<const Cast> scene_cast;  // the scene's
+    std::shared_ptr<const Cast> cast;        // the same until there are edits
+    std::function<void(const Collision&)> listener;
+    std::unique_ptr<Engine> engine;
+    std::uint64_t field_updates = 0;
+    Time now;
+    double seconds = 0;
+    std::vector<std::uint64_t> user_data;  // by id
+
+ private:
+    void check(const Snapshot& s) const;
+    /// What has been read is of the past.
+    void forget();
+    /// Goes on with these bodies from a snapshot of theirs; all stays as it was where that throws.
+    void continue_with(std::shared_ptr<const Cast> next, const Snapshot& s);
+
+    mutable std::mutex reading_;
+    mutable bool is_read_ = false;
+    mutable std::vector<BallState> states_;
+    mutable std::unique_ptr<PlaceIndex> places_;
+};
+
+}  // namespace carom
