@@ -56,6 +56,7 @@ int run_program(int argc, char** argv) {
     add_run_command(app, status);
     add_validate_command(app, status);
     add_render_command(app, status);
+    add_stress_command(app, status);
     try {
         require_command(app, argc, argv);
         app.parse(argc, argv);

@@ -16,7 +16,9 @@
 #include <carom/core/scene.hpp>
 #include <carom/core/wall_time.hpp>
 
-namespace carom::test {
+#include "physics.hpp"
+
+namespace carom::stress {
 
 struct BruteForceRules {
     Domain domain;
@@ -27,7 +29,15 @@ struct BruteForceRules {
     double speed_factor = 1;
     Clock clock;
     bool in_float = false;
+    int images = 1;  ///< periods beyond the nearest image, to either side, in which a partner is looked for
 };
+
+/// The rules by which World runs a scene whose fills are placed.
+inline BruteForceRules rules_of(const Scene& scene) {
+    const Physics p = derive_physics(scene, scene.balls);
+    return {p.domain,   p.gravity, p.restitution_rule, p.contact_time, p.rest_time, p.speed_factor, p.clock,
+            p.in_float, 1};
+}
 
 struct BruteForceEvent {
     double time;
@@ -139,7 +149,7 @@ class BruteForce {
         }
     }
 
-    /// The best over the periodic images next to the nearest one, `offset` being where the ball is seen from
+    /// The best over the periodic images around the nearest one, `offset` being where the ball is seen from
     /// its partner.
     template <class Predict>
     [[nodiscard]] Entry best_image(const Vec2& offset, Predict&& predict) const {
@@ -149,8 +159,10 @@ class BruteForce {
         };
         const int x = nearest(0);
         const int y = nearest(1);
-        for (int nx = periodic(0) ? x - 1 : 0; nx <= (periodic(0) ? x + 1 : 0); ++nx)
-            for (int ny = periodic(1) ? y - 1 : 0; ny <= (periodic(1) ? y + 1 : 0); ++ny)
+        const int across = periodic(0) ? rules_.images : 0;
+        const int along = periodic(1) ? rules_.images : 0;
+        for (int nx = x - across; nx <= x + across; ++nx)
+            for (int ny = y - along; ny <= y + along; ++ny)
                 if (const Entry e = predict(nx, ny); e.time < best.time) best = e;
         return best;
     }
@@ -311,4 +323,4 @@ class BruteForce {
     std::vector<std::size_t> row_best_;
 };
 
-}  // namespace carom::test
+}  // namespace carom::stress
