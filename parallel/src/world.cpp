@@ -235,9 +235,10 @@ class World::State {
             smallest = std::min(smallest, bodies.radius.of(id));
             farthest = std::max(farthest, states()[id].position.cwiseAbs().maxCoeff());
         }
-        // Each of two centres is rounded by half an ulp along either axis, and anew at each event: what is
-        // squeezed between several bodies meets them some times before it parts from one.
-        constexpr double kRoundings = 16;
+        // Each of two centres is rounded by half an ulp along either axis, anew at each event. What is
+        // pressed against several bodies meets them time and again without room to part: its place walks at
+        // random.
+        constexpr double kRoundings = 64;  // of some thousand events
         return kInDouble +
                kRoundings * double(std::numeric_limits<float>::epsilon()) * farthest / (2 * smallest);
     }
