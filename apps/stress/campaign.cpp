@@ -8,8 +8,6 @@
 namespace carom::stress {
 namespace {
 
-constexpr std::uint64_t kMostFailures = 5;
-
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
@@ -26,13 +24,14 @@ Tally run_campaign(const CampaignOptions& options, const CampaignWatch& watch) {
     const Clock::time_point start = Clock::now();
     Tally tally;
     const auto goes_on = [&] {
-        if (watch.is_interrupted() || tally.failures >= kMostFailures) return false;
+        if (watch.is_interrupted() || tally.failures >= options.most_failures) return false;
         return options.scenes ? tally.scenes < *options.scenes : seconds_since(start) < options.seconds;
     };
     while (goes_on()) {
         const std::uint64_t seed = seed_of_scene(options.seed, tally.scenes);
         Trial trial{draw_scene(seed, options.most_balls), seed, options.threads};
         trial.scene.name = fmt::format("stress seed {}, scene {}", options.seed, tally.scenes);
+        watch.drawn(trial);
         Verdict verdict = examine(trial);
         ++tally.scenes;
         tally.collisions += verdict.collisions;

@@ -20,6 +20,7 @@ struct CampaignOptions {
     std::optional<std::uint64_t> scenes;  ///< none: as many as the time allows
     double seconds = 60;                  ///< of the clock on the wall
     double shrink_seconds = 60;           ///< at most, for one failure
+    std::uint64_t most_failures = 5;      ///< more would tell nothing
 };
 
 struct Tally {
@@ -35,8 +36,9 @@ struct Tally {
 
 /// What is told on the way.
 struct CampaignWatch {
-    std::function<void(const Tally&)> progress;                ///< after each scene
-    std::function<void(const Trial&, const Verdict&)> failed;  ///< shrunk already
+    std::function<void(const Trial&)> drawn = [](const Trial&) {};
+    std::function<void(const Tally&)> progress = [](const Tally&) {};  ///< after each scene
+    std::function<void(const Trial&, const Verdict&)> failed;          ///< shrunk already
     std::function<bool()> is_interrupted = [] { return false; };
 };
 

@@ -237,10 +237,12 @@ class World::State {
         }
         // Each of two centres is rounded by half an ulp along either axis, anew at each event. What is
         // pressed against several bodies meets them time and again without room to part: its place walks at
-        // random.
-        constexpr double kRoundings = 64;  // of some thousand events
+        // random, through eight times as many events as others have, four standard deviations wide.
+        const Counts counts = engine->counts();
+        const double collisions = double(counts.ball_collisions + counts.wall_collisions);
+        const double roundings = 16 + 4 * std::sqrt(8 * 2 * collisions / std::max<double>(1, bodies.moving));
         return kInDouble +
-               kRoundings * double(std::numeric_limits<float>::epsilon()) * farthest / (2 * smallest);
+               roundings * double(std::numeric_limits<float>::epsilon()) * farthest / (2 * smallest);
     }
 
     static bool is_free(const Scene& scene, const std::vector<Ball>& balls) {
