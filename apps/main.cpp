@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,8 @@ int main(int argc, char** argv) {
     try {
         return run_program(argc, argv);
     } catch (const std::bad_alloc&) {
+        std::fputs("carom: error: out of memory\n", stderr);
+    } catch (const std::length_error&) {  // more than any memory could hold
         std::fputs("carom: error: out of memory\n", stderr);
     } catch (const std::exception& error) {
         try {
