@@ -297,12 +297,13 @@ class BruteForce {
             normal[static_cast<Eigen::Index>(side / 2)] = side % 2 == 1 ? -1 : 1;
         }
         e = pair_restitution(rules_.rule, a.ball.restitution, e);
-        const double lasting = tc(e, event.time, a, a);
+        const bool lasts = tc(0, event.time, a, a) == 1;
+        const double lasting = lasts ? 1 : e;
         const double pressure =
             a.acceleration.isZero(0)
                 ? 0.0
                 : -(dot(normal, a.acceleration) + (round ? length_squared(a.ball.velocity) : 0.0));
-        const double factor = lasting == e ? rules_.speed_factor : 1;
+        const double factor = lasts ? 1 : rules_.speed_factor;
         a.ball.velocity = bounce<double>(a.ball.velocity, normal, lasting,
                                          separation(pressure, std::sqrt(length_squared(normal))) / factor,
                                          [&](const Vec2& u) { return held(Vec2(u * factor)); });

@@ -330,7 +330,8 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
         normal[side.axis] = side.upper ? -1 : 1;
     }
     const double restitution = bodies_.restitution_between(records_[i].id, event.partner);
-    const double lasting = restitution_at(restitution, i, i, event.time);
+    const bool lasts = restitution_at(0, i, i, event.time) == 1;  // then nothing is lost, by no rule
+    const double lasting = lasts ? 1 : restitution;
     const Vec2 before = {a.vx, a.vy};
     const double length = std::sqrt(length_squared(normal));
     // NOLINTNEXTLINE(misc-const-correctness): not where there is an acceleration
@@ -341,8 +342,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
         pressure = -(dot(normal, acceleration_of(i)) + (is_round ? length_squared(before) : 0.0));
     }
     const double separation = parting_speed(pressure, normal, bodies_.physics.rest_time);
-    const double factor =
-        bodies_.physics.contact_time > 0 && lasting != restitution ? 1 : bodies_.physics.speed_factor;
+    const double factor = lasts ? 1 : bodies_.physics.speed_factor;
     const Vec2 after = bounce<double>(before, normal, lasting, separation / factor,
                                       [&](const Vec2& v) { return bodies_.held_velocity(v * factor); });
     a.vx = after.x();
