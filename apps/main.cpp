@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,7 @@ int run_program(int argc, char** argv) {
     add_run_command(app, status);
     add_validate_command(app, status);
     add_render_command(app, status);
+    add_stress_command(app, status);
     try {
         require_command(app, argc, argv);
         app.parse(argc, argv);
@@ -78,6 +80,8 @@ int main(int argc, char** argv) {
     try {
         return run_program(argc, argv);
     } catch (const std::bad_alloc&) {
+        std::fputs("carom: error: out of memory\n", stderr);
+    } catch (const std::length_error&) {  // more than any memory could hold
         std::fputs("carom: error: out of memory\n", stderr);
     } catch (const std::exception& error) {
         try {

@@ -28,6 +28,7 @@ struct RunOptions {
     double cell_size = 0;
     int domains = 0;
     int halo = 0;
+    bool check_memory = true;
     std::string trajectory;
     std::optional<double> every;  ///< given exactly when `trajectory` is
     std::string events;

@@ -13,6 +13,7 @@
 
 #include "commands.hpp"
 #include "interrupt.hpp"
+#include "memory_need.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
 #include "run.hpp"
@@ -111,6 +112,7 @@ int run(const RunOptions& options) {
     Scene scene = read_scene(options.scene);
     scene.precision = options.precision.value_or(scene.precision);
     take_method(scene, options);
+    if (options.check_memory) require_memory(scene);
     const double until = options.until.value_or(scene.until);
     std::optional<Checkpoint> checkpoint = checkpoint_of(options, until);
     std::optional<RunOutputs> outputs;
@@ -244,6 +246,8 @@ void add_run_command(CLI::App& app, int& status) {
                      "Side of the grid's cells. Never changes a bit of the result")
         ->type_name("H")
         ->check(positive_number());
+    command->add_flag("!--no-memory-check", options->check_memory,
+                      "Do not refuse a scene that needs more memory than there is");
     add_output_options(*command, *options);
     add_checkpoint_options(*command, *options);
     command->callback([options, &status] { status = run(*options); });

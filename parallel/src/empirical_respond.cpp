@@ -178,12 +178,13 @@ void EmpiricalEngine::respond_obstacle(const Meeting& meeting) {
     const Vec2& line = contact.line;
     const bool is_ball = partner < bodies_.count;
     const double restitution = bodies_.restitution_between(id_[i], partner);
-    const double lasting = restitution_at(restitution, meeting.pair, contact.gap, time);
+    const bool lasts = restitution_at(0, meeting.pair, contact.gap, time) == 1;
+    const double lasting = lasts ? 1 : restitution;
     const Vec2 acceleration = acceleration_of(i);
     double pressure = 0;
     if (!acceleration.isZero(0))
         pressure = -(dot(line, acceleration) + (contact.is_round ? length_squared(before) : 0.0));
-    const bool is_paid = lasting != restitution || contact.gap < -steps_.tolerance;
+    const bool is_paid = lasts || contact.gap < -steps_.tolerance;
     const double factor = is_paid ? 1 : bodies_.physics.speed_factor;
     const Vec2 after = bounce<double>(
         before, line, lasting, std::max(parting_speed_of(pressure, line), recovery(contact.gap, i)) / factor,

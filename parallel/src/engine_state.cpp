@@ -6,6 +6,8 @@
 
 #include <carom/core/motion.hpp>
 
+#include "fault.hpp"
+
 namespace carom {
 namespace {
 
@@ -87,7 +89,7 @@ EngineStart start_from(const Bodies& bodies, const Snapshot& s, const Executor& 
             r.anchor = {a.position.x(), a.position.y(), a.velocity.x(), a.velocity.y(), a.time, 0, 0, cell};
             r.periods = {a.periods_x, a.periods_y};
             if (!s.accelerations.empty()) start.extras[k].acceleration = acceleration;
-            if (s.last_collisions.empty()) continue;
+            if (s.last_collisions.empty() || is_active(Fault::kForgottenHit)) continue;
             if (!(s.last_collisions[k] <= start.now)) is_whole = false;
             start.extras[k].last_collision = s.last_collisions[k];
         }

@@ -9,6 +9,7 @@
 #include <carom/core/wall_time.hpp>
 
 #include "event_loop_of.hpp"
+#include "fault.hpp"
 
 namespace carom {
 
@@ -167,7 +168,12 @@ void EventLoopOf<A>::consider_beside(std::uint32_t i, std::uint32_t j, CellCoord
 template <Acceleration A>
 void EventLoopOf<A>::consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best) const {
     if (j == i) return;
-    const double sum = radius_of(i) + radius_of(j);
+    // One reach for a pair, whoever asks: as far as a large one looks when it crosses a border. A small ball
+    // that looked less far would not see the large one after an event in between, and nobody would later.
+    const auto counted = [this](std::uint32_t k) {
+        return is_large(k) ? radius_of(k) : bodies_.largest_listed_radius;
+    };
+    const double sum = counted(i) + counted(j);
     const Grid& grid = bodies_.grid;
     const CellCoordinates& a = records_[i].anchor.cell;
     const CellCoordinates& b = records_[j].anchor.cell;
@@ -180,6 +186,7 @@ void EventLoopOf<A>::consider_images(std::uint32_t i, std::uint32_t j, NextEvent
 /// The large balls, which are in no cell's list.
 template <Acceleration A>
 void EventLoopOf<A>::scan_large(std::uint32_t i, NextEvent& best) const {
+    if (is_active(Fault::kUnseenLarge)) return;
     for (const std::uint32_t j : large_) consider_images(i, j, best);
 }
 
@@ -291,21 +298,30 @@ void EventLoopOf<A>::tell_lower(std::uint32_t i) {
     if (const NextEvent event = records_[i].next; event.local != kNowhere && event.partner < records_[i].id &&
                                                   records_[event.local].anchor.stamp == event.stamp)
         tell(event.local, event);
+    const auto is_told = [this, i](std::uint32_t j) { return records_[j].id < records_[i].id; };
     const CellCoordinates c = records_[i].anchor.cell;
-    for_each_place(i, {c.x - 1, c.y - 1}, {c.x + 1, c.y + 1}, [&](std::int32_t place, CellCoordinates cell) {
-        cells_.for_each(place, [&](std::uint32_t j) {
-            if (records_[j].id >= records_[i].id) return;
-            NextEvent event;
-            consider_in_cell(i, j, cell, event);
-            tell_if_now(j, event);
-        });
-    });
-    for (const std::uint32_t j : large_) {
-        if (records_[j].id >= records_[i].id) continue;
+    const std::int32_t across = cell_reach(bodies_.grid.x, i);
+    const std::int32_t along = cell_reach(bodies_.grid.y, i);
+    const bool is_everywhere = reaches_all(across, along);
+    const auto tell_anywhere = [&](std::uint32_t j) {
+        if (!is_told(j)) return;
         NextEvent event;
         consider_images(i, j, event);
         tell_if_now(j, event);
-    }
+    };
+    for (std::uint32_t j = 0; is_everywhere && j < size(); ++j)
+        if (!is_large(j)) tell_anywhere(j);
+    if (!is_everywhere)
+        for_each_place(i, {c.x - across, c.y - along}, {c.x + across, c.y + along},
+                       [&](std::int32_t place, CellCoordinates cell) {
+                           cells_.for_each(place, [&](std::uint32_t j) {
+                               if (!is_told(j)) return;
+                               NextEvent event;
+                               consider_in_cell(i, j, cell, event);
+                               tell_if_now(j, event);
+                           });
+                       });
+    for (const std::uint32_t j : large_) tell_anywhere(j);
 }
 
 template <Acceleration A>

@@ -152,7 +152,7 @@ std::vector<Violation> World::validate() const {
     // An overlap that was there at the start is never deepened: a pair in it is hit where it approaches.
     const double allowed = state_->rounding_of_overlaps() + state_->cast->deepest_overlap;
     if (const double deepest = max_overlap(); !(deepest <= allowed))
-        found.push_back({"two bodies overlap by " + std::to_string(deepest) + " of their radii's sum"});
+        found.push_back({"two bodies overlap by " + shown(deepest) + " of their radii's sum"});
     return found;
 }
 

@@ -12,27 +12,20 @@
 
 #include <carom/parallel/world.hpp>
 
-#include "brute_force.hpp"
-#include "physics.hpp"
+#include "stress/reference_engine.hpp"
 
 namespace carom::test {
 
-inline BruteForceRules rules_of(const Scene& scene) {
-    const Physics p = derive_physics(scene, scene.balls);
-    return {p.domain,       p.gravity, p.restitution_rule, p.contact_time, p.rest_time,
-            p.speed_factor, p.clock,   p.in_float};
-}
-
 /// Runs both until the reference has had its events, or nothing is left to happen.
 inline void audit(const Scene& scene, double cell_size, std::size_t events) {
-    BruteForce reference(rules_of(scene), scene.balls, scene.walls);
+    stress::BruteForce reference(stress::rules_of(scene), scene.balls, scene.walls);
     World world(scene, {.threads = 1, .cell_size = cell_size});
     std::vector<Collision> seen;
     world.on_collision([&seen](const Collision& c) { seen.push_back(c); });
     const std::size_t balls = scene.balls.size();
     double time = 0;
     for (std::size_t k = 0; k < events && !reference.finished(); ++k) {
-        const BruteForceEvent expected = reference.next();
+        const stress::BruteForceEvent expected = reference.next();
         // An event's time in seconds is rounded from epoch and offset: one step further holds it for sure.
         time = std::nextafter(expected.time, std::numeric_limits<double>::infinity());
         if (seen.size() <= k) world.advance_to(time);

@@ -22,5 +22,34 @@ TEST_P(BruteForceAudit, AgreesWithWideCells) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BruteForceAudit, testing::ValuesIn(feature_scenes()), kNameOfScene);
 
+// The sixteen largest balls are wider than a cell and in no list. A small ball that comes to fly at one of
+// them while two cells away must be seen, whichever of the two then brings them into neighbouring cells.
+// Where balls seldom meet nothing but the crossings tells them of each other.
+TEST(LargeBallsAudit, AgreeThoughBarelyWiderThanACell) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        SCOPED_TRACE(seed);
+        Scene s = gas(seed, {.count = 120,
+                             .packing = 0.35,
+                             .boundary_x = Boundary::kWall,
+                             .boundary_y = Boundary::kWall,
+                             .radius_spread = 0.9});
+        for (Ball& b : s.balls) {  // slow, so that they stay in their cells
+            b.mass = 100;
+            b.radius *= 0.6;
+            b.velocity *= 0.1;
+        }
+        for (std::size_t i = 0; i < 17; ++i) {
+            Ball& b = s.balls[7 * i];
+            b.radius = i == 0 ? 0.45 : 0.55;  // the cells are made for the first
+            b.mass = 1;
+            b.velocity *= 20;
+        }
+        for (Ball& b : s.balls) b.position += Vec2(0.1, 0.1);
+        s.domain->box.max += Vec2(0.2, 0.2);
+        audit(s, 0.01, 2000);
+        if (HasFatalFailure()) return;
+    }
+}
+
 }  // namespace
 }  // namespace carom::test

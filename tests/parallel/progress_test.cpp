@@ -185,6 +185,22 @@ TEST(Progress, SpeedFactorDoesNotUndoTheHop) {
     EXPECT_LE(collisions_per_contact_time(s, 10), 31'400);
 }
 
+// A heavy ball presses a light one against a wall. Within the contact time the speed factor takes nothing
+// either, or the light ball would never turn the heavy one back. Without any loss a light ball turns it after
+// about pi sqrt(M / m) / 2 hits on each side (Galperin 2003), 314 in all for a mass ratio of 10^4.
+TEST(Progress, SpeedFactorLeavesASqueezedBallItsSpeed) {
+    Scene s = box_under_gravity({ball(5, 0.6), ball(5, 2)}, 1);
+    s.gravity = Vec2::Zero();
+    s.speed_factor = 0.8;
+    s.balls[1].mass = 1e4;
+    s.balls[1].velocity = {0, -1};
+    World world(s, {.threads = 1});
+    world.advance_to(3);
+    EXPECT_LE(world.counts().ball_collisions + world.counts().wall_collisions, 400U);
+    EXPECT_GT(world.velocities()[1].y(), 0.5);
+    EXPECT_TRUE(world.validate().empty());
+}
+
 TEST(Progress, BallWithoutRoomIsRefused) {
     Scene s = box_under_gravity({ball(5, 0.5)}, 1);
     s.walls = {{{0, 1}, {10, 1}, 1}};

@@ -16,7 +16,9 @@
 #include <carom/core/scene.hpp>
 #include <carom/core/wall_time.hpp>
 
-namespace carom::test {
+#include "physics.hpp"
+
+namespace carom::stress {
 
 struct BruteForceRules {
     Domain domain;
@@ -27,7 +29,15 @@ struct BruteForceRules {
     double speed_factor = 1;
     Clock clock;
     bool in_float = false;
+    int images = 1;  ///< periods beyond the nearest image, to either side, in which a partner is looked for
 };
+
+/// The rules by which World runs a scene whose fills are placed.
+inline BruteForceRules rules_of(const Scene& scene) {
+    const Physics p = derive_physics(scene, scene.balls);
+    return {p.domain,   p.gravity, p.restitution_rule, p.contact_time, p.rest_time, p.speed_factor, p.clock,
+            p.in_float, 1};
+}
 
 struct BruteForceEvent {
     double time;
@@ -139,7 +149,7 @@ class BruteForce {
         }
     }
 
-    /// The best over the periodic images next to the nearest one, `offset` being where the ball is seen from
+    /// The best over the periodic images around the nearest one, `offset` being where the ball is seen from
     /// its partner.
     template <class Predict>
     [[nodiscard]] Entry best_image(const Vec2& offset, Predict&& predict) const {
@@ -149,8 +159,10 @@ class BruteForce {
         };
         const int x = nearest(0);
         const int y = nearest(1);
-        for (int nx = periodic(0) ? x - 1 : 0; nx <= (periodic(0) ? x + 1 : 0); ++nx)
-            for (int ny = periodic(1) ? y - 1 : 0; ny <= (periodic(1) ? y + 1 : 0); ++ny)
+        const int across = periodic(0) ? rules_.images : 0;
+        const int along = periodic(1) ? rules_.images : 0;
+        for (int nx = x - across; nx <= x + across; ++nx)
+            for (int ny = y - along; ny <= y + along; ++ny)
                 if (const Entry e = predict(nx, ny); e.time < best.time) best = e;
         return best;
     }
@@ -285,12 +297,13 @@ class BruteForce {
             normal[static_cast<Eigen::Index>(side / 2)] = side % 2 == 1 ? -1 : 1;
         }
         e = pair_restitution(rules_.rule, a.ball.restitution, e);
-        const double lasting = tc(e, event.time, a, a);
+        const bool lasts = tc(0, event.time, a, a) == 1;
+        const double lasting = lasts ? 1 : e;
         const double pressure =
             a.acceleration.isZero(0)
                 ? 0.0
                 : -(dot(normal, a.acceleration) + (round ? length_squared(a.ball.velocity) : 0.0));
-        const double factor = lasting == e ? rules_.speed_factor : 1;
+        const double factor = lasts ? 1 : rules_.speed_factor;
         a.ball.velocity = bounce<double>(a.ball.velocity, normal, lasting,
                                          separation(pressure, std::sqrt(length_squared(normal))) / factor,
                                          [&](const Vec2& u) { return held(Vec2(u * factor)); });
@@ -311,4 +324,4 @@ class BruteForce {
     std::vector<std::size_t> row_best_;
 };
 
-}  // namespace carom::test
+}  // namespace carom::stress

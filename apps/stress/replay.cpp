@@ -1,0 +1,183 @@
+#include "replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <carom/core/response.hpp>
+
+#include "physics.hpp"
+
+namespace carom::stress {
+namespace {
+
+constexpr double kRoundingOfDouble = 0x1p-53;
+constexpr double kRoundingOfFloat = 0x1p-24;
+// A collision rounds some ten numbers on its way, each by half an ulp of the largest among them.
+constexpr double kRoundings = 16;
+
+double length(const Vec2& v) {
+    return std::sqrt(length_squared<double>(v));
+}
+
+double farthest(const Box& box) {
+    return length(box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()));
+}
+
+}  // namespace
+
+Replay::Replay(const Scene& scene, const World& world)
+    : scene_(scene),
+      follows_velocities_(scene.attractors.empty() && scene.speed_factor == 1),
+      rounding_(scene.precision == Precision::kFloat ? kRoundingOfFloat : kRoundingOfDouble),
+      rest_time_(derive_physics(scene, scene.balls).rest_time),
+      corner_(farthest(world.domain().box)),
+      energy_(world.energy()) {
+    for (const Ball& b : scene.balls) {
+        Course& c = courses_.emplace_back();
+        c.velocity = b.velocity;
+        c.acceleration = b.is_static ? Vec2(Vec2::Zero()) : Vec2(scene.gravity + b.acceleration);
+        c.reach = length(b.position) + corner_;
+        c.fastest = length(b.velocity);
+    }
+}
+
+void Replay::blame(const Collision& c, const std::string& what, double found, double bound) {
+    if (!fault_.empty()) return;
+    fault_ =
+        fmt::format("collision {} at time {}, ball {} with {} {}: {}: {:.6g}, may be {:.6g}", collisions_,
+                    c.time, c.i, c.kind == CollisionKind::kBall ? "ball" : "wall", c.j, what, found, bound);
+}
+
+bool Replay::is_well_formed(const Collision& c) {
+    const bool with_ball = c.kind == CollisionKind::kBall;
+    const std::size_t partners = with_ball ? scene_.balls.size() : scene_.walls.size() + 4;
+    if (c.i >= scene_.balls.size() || c.j >= partners || (with_ball && c.i == c.j)) {
+        blame(c, "number of a body that is not there", double(c.j), double(partners));
+        return false;
+    }
+    if (!(c.time >= last_time_)) blame(c, "goes back in time", c.time, last_time_);
+    last_time_ = c.time;
+    if (scene_.balls[c.i].is_static) blame(c, "moves a static ball", c.i, 0);
+    const double norm_error = std::abs(length(c.normal) - 1);
+    if (!(norm_error <= 4 * kRoundingOfDouble)) blame(c, "normal is no unit vector", norm_error, 0);
+    return fault_.empty();
+}
+
+double Replay::restitution_of(const Collision& c) const {
+    double of_partner = scene_.domain ? scene_.domain->restitution : 1;
+    if (c.kind == CollisionKind::kBall)
+        of_partner = scene_.balls[c.j].restitution;
+    else if (c.j < scene_.walls.size())
+        of_partner = scene_.walls[c.j].restitution;
+    return pair_restitution(scene_.restitution_rule, scene_.balls[c.i].restitution, of_partner);
+}
+
+/// Free flight. The time of an event, told in seconds, is rounded once.
+void Replay::move_to(Course& c, double time) const {
+    const double since = time - c.time;
+    const double pull = length(c.acceleration);
+    c.velocity += since * c.acceleration;
+    c.time = time;
+    const double speed = length(c.velocity);
+    c.reach += std::max(speed, c.fastest) * since;
+    c.fastest = std::max(c.fastest, speed);
+    c.doubt += 2 * kRoundingOfDouble * (speed + pull * (time + since));
+}
+
+void Replay::push(Course& c, const Vec2& change) {
+    c.velocity += change;
+    c.fastest = std::max(c.fastest, length(c.velocity));
+    c.doubt += rounding_ * 4 * (length(c.velocity) + length(change));
+}
+
+void Replay::check_response(const Collision& c, const Bodies& b) {
+    const Vec2 relative =
+        b.second != nullptr ? Vec2(b.first->velocity - b.second->velocity) : b.first->velocity;
+    const double inverse_mass = b.inverse_mass_first + b.inverse_mass_second;
+    const double before = dot<double>(relative, c.normal);
+    const double after = before + c.impulse * inverse_mass;
+    // Along the normal, whose own rounding turns the whole relative velocity.
+    const double speeds = b.first->fastest + (b.second != nullptr ? b.second->fastest : 0.0);
+    const double doubt = b.first->doubt + (b.second != nullptr ? b.second->doubt : 0.0) +
+                         kRoundings * rounding_ * (speeds + std::abs(c.impulse) * inverse_mass);
+    const double pull =
+        length(b.first->acceleration) + (b.second != nullptr ? length(b.second->acceleration) : 0.0);
+    const double hop = pull * rest_time_ / 2;  // what keeps a contact under pressure open
+    const double approach = std::max(-before, 0.0);
+    if (before > hop + doubt) blame(c, "the bodies part already, at", before, hop + doubt);
+    if (after < -doubt) blame(c, "the bodies still approach, at", -after, doubt);
+    const double fastest = std::max(approach, hop);
+    if (after > fastest + doubt)
+        blame(c, "the bodies part faster than they came, at", after, fastest + doubt);
+    const double slowest = restitution_of(c) * approach;
+    if (after < slowest - doubt) blame(c, "the bodies part slower than they should, at", after, slowest);
+    if (inverse_mass > 0) {
+        energy_ += (after * after - before * before) / (2 * inverse_mass);
+        energy_doubt_ += doubt * (std::abs(after) + std::abs(before) + doubt) / inverse_mass;
+    }
+}
+
+void Replay::take(const Collision& c) {
+    ++collisions_;
+    if (!fault_.empty() || !is_well_formed(c) || !follows_velocities_) return;
+    Bodies bodies;
+    bodies.first = &courses_[c.i];
+    bodies.inverse_mass_first = 1 / scene_.balls[c.i].mass;
+    if (c.kind == CollisionKind::kBall && !scene_.balls[c.j].is_static) {
+        bodies.second = &courses_[c.j];
+        bodies.inverse_mass_second = 1 / scene_.balls[c.j].mass;
+    }
+    move_to(*bodies.first, c.time);
+    if (bodies.second != nullptr) move_to(*bodies.second, c.time);
+    check_response(c, bodies);
+    // The anchor's place and velocity are rounded once each: so is the energy that they carry.
+    const auto rounded = [&](const Course& course, double mass) {
+        energy_doubt_ +=
+            kRoundings * rounding_ * mass *
+            (course.fastest * course.fastest + length(course.acceleration) * (corner_ + length(c.point)));
+    };
+    rounded(*bodies.first, scene_.balls[c.i].mass);
+    push(*bodies.first, Vec2(c.impulse * bodies.inverse_mass_first * c.normal));
+    if (bodies.second == nullptr) return;
+    rounded(*bodies.second, scene_.balls[c.j].mass);
+    push(*bodies.second, Vec2(-c.impulse * bodies.inverse_mass_second * c.normal));
+}
+
+void Replay::compare(const World& world) {
+    if (!fault_.empty() || !follows_velocities_) return;
+    const double time = world.time();
+    if (last_time_ > time * (1 + 4 * kRoundingOfDouble))
+        fault_ = fmt::format("a collision at time {} is told before time {}", last_time_, time);
+    const PlaneVectors shown = world.velocities();
+    for (std::size_t i = 0; i < shown.size() && fault_.empty(); ++i) {
+        move_to(courses_[i], time);
+        // What is shown is held as the anchor is.
+        const double bound = courses_[i].doubt + 4 * rounding_ * courses_[i].fastest;
+        const double error = length(shown[i] - courses_[i].velocity);
+        if (!(error <= bound))
+            fault_ = fmt::format(
+                "at time {} the velocity of ball {} is off by {:.6g} from what its collisions tell, may be "
+                "{:.6g}",
+                time, i, error, bound);
+    }
+    if (fault_.empty()) compare_energy(world, time);
+}
+
+void Replay::compare_energy(const World& world, double time) {
+    double doubt = energy_doubt_;
+    for (std::size_t i = 0; i < courses_.size(); ++i) {
+        const Course& c = courses_[i];
+        if (scene_.balls[i].is_static) continue;
+        doubt += kRoundings * rounding_ * scene_.balls[i].mass *
+                 (c.fastest * c.fastest + length(c.acceleration) * c.reach);
+    }
+    const double error = std::abs(world.energy() - energy_);
+    if (!(error <= doubt))
+        fault_ = fmt::format(
+            "at time {} the energy is off by {:.6g} from what the collisions leave ({:.6g}), may be {:.6g}",
+            time, error, energy_, doubt);
+}
+
+}  // namespace carom::stress
