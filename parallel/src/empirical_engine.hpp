@@ -171,7 +171,7 @@ class EmpiricalEngine final : public Engine {
     void relist(std::uint32_t slot);
     void respond_ball(const Meeting& meeting);
     void respond_obstacle(const Meeting& meeting);
-    void tell(const Meeting& meeting, const Vec2& normal, double impulse, double virial);
+    void tell(const Meeting& meeting, const Hit& hit);
     [[nodiscard]] double restitution_at(double restitution, const Pair& pair, double gap,
                                         const Time& t) const;
     [[nodiscard]] double recovery(double gap, std::uint32_t slot) const;

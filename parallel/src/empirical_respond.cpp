@@ -165,7 +165,8 @@ void EmpiricalEngine::respond_ball(const Meeting& meeting) {
     vy_[j] = after.b.y();
     if (bodies_.physics.contact_time > 0) last_collision_[i] = last_collision_[j] = time;
     const double distance = std::sqrt(length_squared(line));
-    tell(meeting, distance > 0 ? Vec2(line / distance) : Vec2(1, 0), impulse, impulse * distance);
+    const Vec2 normal = distance > 0 ? Vec2(line / distance) : Vec2(1, 0);
+    tell(meeting, {normal, impulse, -dot<double>(va - vb, normal), impulse * distance});
 }
 
 void EmpiricalEngine::respond_obstacle(const Meeting& meeting) {
@@ -195,21 +196,21 @@ void EmpiricalEngine::respond_obstacle(const Meeting& meeting) {
     const double length = std::sqrt(length_squared(line));
     const Vec2 normal = length > 0 ? Vec2(line / length) : Vec2(1, 0);
     const double impulse = bodies_.mass.of(id_[i]) * dot<double>(after - before, normal);
-    tell(meeting, normal, impulse, is_ball ? impulse * length : 0.0);
+    tell(meeting, {normal, impulse, -dot(before, normal), is_ball ? impulse * length : 0.0});
 }
 
 /// Counts the collision, and tells whoever listens.
-void EmpiricalEngine::tell(const Meeting& meeting, const Vec2& normal, double impulse, double virial) {
+void EmpiricalEngine::tell(const Meeting& meeting, const Hit& hit) {
     const std::uint32_t i = meeting.pair.slot;
     const std::uint32_t partner = meeting.pair.partner;
     CollisionNote note;
     note.is_wall = partner >= bodies_.count;
-    note.virial = virial;
+    note.virial = hit.virial;
     count(note);
     ++counts_.events;
     if (!listener_) return;
     listener_(collision_of(bodies_, clock_.to_seconds(clock_.after(now_, meeting.time)), id_[i], partner,
-                           {x_[i], y_[i]}, normal, impulse));
+                           {x_[i], y_[i]}, hit));
 }
 
 }  // namespace carom

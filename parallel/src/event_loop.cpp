@@ -153,8 +153,8 @@ std::unique_ptr<EventLoop> make_event_loop(const Bodies& bodies) {
 }
 
 Collision collision_of(const Bodies& bodies, double seconds, std::uint32_t id, std::uint32_t partner,
-                       const Vec2& centre, const Vec2& normal, double impulse) {
-    const Vec2 point = centre - bodies.radius.of(id) * normal;
+                       const Vec2& centre, const Hit& hit) {
+    const Vec2 point = centre - bodies.radius.of(id) * hit.normal;
     const bool is_wall = partner >= bodies.count;
     std::int32_t ignored = 0;
     return {seconds,
@@ -162,8 +162,9 @@ Collision collision_of(const Bodies& bodies, double seconds, std::uint32_t id, s
             bodies.ball_id(id),
             is_wall ? bodies.wall_id(partner - bodies.count) : bodies.ball_id(partner),
             {bodies.grid.x.wrapped(point.x(), ignored), bodies.grid.y.wrapped(point.y(), ignored)},
-            normal,
-            impulse};
+            hit.normal,
+            hit.impulse,
+            hit.approach_speed};
 }
 
 BallState state_at(const Bodies& bodies, const Anchor& anchor, const Periods& periods,

@@ -49,11 +49,17 @@ struct CollisionNote {
     double virial = 0;
 };
 
-/// A collision as listeners are told of it. `centre` is ball `id`'s, `normal` the unit vector towards it,
-/// `partner` the other body's number.
+/// What a collision does to a ball.
+struct Hit {
+    Vec2 normal;            ///< unit vector towards the ball
+    double impulse;         ///< along it
+    double approach_speed;  ///< of the two surfaces just before
+    double virial;
+};
+
+/// A collision as listeners are told of it. `centre` is ball `id`'s, `partner` the other body's number.
 [[nodiscard]] Collision collision_of(const Bodies& bodies, double seconds, std::uint32_t id,
-                                     std::uint32_t partner, const Vec2& centre, const Vec2& normal,
-                                     double impulse);
+                                     std::uint32_t partner, const Vec2& centre, const Hit& hit);
 
 /// What an event has overwritten of an anchor, and the index of what was before it. One cache line.
 struct OverwrittenAnchor {

@@ -292,7 +292,10 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     remember(j, t, records_[i].id);
     const double distance = std::sqrt(length_squared(r));
     ++collisions_of_all;
-    if (is_owned(i)) note(t, i, records_[j].id, b.stamp, r / distance, impulse, impulse * distance);
+    if (is_owned(i)) {
+        const double approach = -dot<double>(va - vb, r) / distance;
+        note(t, i, records_[j].id, b.stamp, {r / distance, impulse, approach, impulse * distance});
+    }
     if (bodies_.physics.contact_time > 0) last_collision_[i] = last_collision_[j] = t;
     settle(i);
     settle(j);
@@ -350,8 +353,11 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     remember(i, event.time, event.partner);
     const double impulse = bodies_.mass.of(records_[i].id) * dot<double>(after - before, normal) / length;
     ++collisions_of_all;
-    if (is_owned(i))
-        note(event.time, i, event.partner, 0, normal / length, impulse, is_ball ? impulse * length : 0.0);
+    if (is_owned(i)) {
+        const double approach = -dot(before, normal) / length;
+        note(event.time, i, event.partner, 0,
+             {normal / length, impulse, approach, is_ball ? impulse * length : 0.0});
+    }
     if (bodies_.physics.contact_time > 0) last_collision_[i] = event.time;
     settle(i);
     predict_crossing(i);
@@ -376,7 +382,7 @@ void EventLoopOf<A>::remember(std::uint32_t i, const Time& t, std::uint32_t part
 
 template <Acceleration A>
 void EventLoopOf<A>::note(const Time& t, std::uint32_t i, std::uint32_t partner, std::uint32_t partner_stamp,
-                          const Vec2& normal, double impulse, double virial) {
+                          const Hit& hit) {
     CollisionNote& n = notes.emplace_back();
     n.time = t;
     n.lower = records_[i].id;
@@ -384,10 +390,10 @@ void EventLoopOf<A>::note(const Time& t, std::uint32_t i, std::uint32_t partner,
     n.lower_stamp = records_[i].anchor.stamp;
     n.higher_stamp = partner_stamp;
     n.is_wall = partner >= bodies_.count;
-    n.virial = virial;
+    n.virial = hit.virial;
     if (listens) {
         collisions.push_back(collision_of(bodies_, clock_.to_seconds(t), records_[i].id, partner,
-                                          {records_[i].anchor.x, records_[i].anchor.y}, normal, impulse));
+                                          {records_[i].anchor.x, records_[i].anchor.y}, hit));
     }
     constexpr std::size_t kBatch = 1024;
     if (!keeps_notes && notes.size() >= kBatch) pass_on_notes();

@@ -136,7 +136,7 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] double restitution_at(double restitution, std::uint32_t i, std::uint32_t j,
                                         const Time& t) const;
     void note(const Time& t, std::uint32_t i, std::uint32_t partner, std::uint32_t partner_stamp,
-              const Vec2& normal, double impulse, double virial);
+              const Hit& hit);
     void remember(std::uint32_t i, const Time& t, std::uint32_t partner);
 };
 

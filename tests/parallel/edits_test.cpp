@@ -31,6 +31,7 @@ TEST(Edits, AddedBallIsHitWhenItMustBe) {
     world.advance_to(10);
     ASSERT_EQ(told.size(), 1);
     EXPECT_EQ(told[0].time, 5.5);  // centres 1 apart: 12 - 1 = 2 t
+    EXPECT_EQ(told[0].approach_speed, 2);
     EXPECT_EQ(world.ball(0).velocity, Vec2(0, 0));
     EXPECT_EQ(world.ball(1).velocity, Vec2(2, 0));
 }
@@ -66,6 +67,7 @@ TEST(Edits, WallAcrossTheWayFlownSoFarIsNotHit) {
     world.advance_to(30);
     ASSERT_EQ(told.size(), 1);
     EXPECT_EQ(told[0].time, 19.5);
+    EXPECT_EQ(told[0].approach_speed, 1);
     EXPECT_EQ(told[0].j, ahead);
     world.remove_wall(ahead);
     world.advance_to(40);  // back to x = 5.5 at 33.5

@@ -24,9 +24,10 @@ struct Collision {
     CollisionKind kind;
     std::uint32_t i;
     std::uint32_t j;
-    Vec2 point;      ///< where the two surfaces meet
-    Vec2 normal;     ///< unit vector towards ball i
-    double impulse;  ///< given to ball i along the normal, mass * length / time
+    Vec2 point;             ///< where the two surfaces meet
+    Vec2 normal;            ///< unit vector towards ball i
+    double impulse;         ///< given to ball i along the normal, mass * length / time
+    double approach_speed;  ///< relative speed along the normal just before
 };
 
 struct WorldOptions {
