@@ -43,6 +43,12 @@ double depth_of(const PairSearch& search, const PairSearch::Disc& a, const PairS
     return std::max(0.0, radius_sum - std::sqrt(distance_squared));
 }
 
+/// The same for the balls behind them; none where they do not collide.
+double depth_of(const PairSearch& search, const std::vector<Ball>& balls, const PairSearch::Disc& a,
+                const PairSearch::Disc& b) {
+    return may_collide(balls[a.id].filter, balls[b.id].filter) ? depth_of(search, a, b) : 0;
+}
+
 Overlap in_order(std::uint32_t i, std::uint32_t j, double depth) {
     return {std::min(i, j), std::max(i, j), depth};
 }
@@ -80,6 +86,7 @@ class Walls {
                 const Vec2 p(axes_[0].wrapped(ball.position.x()) + x * axes_[0].period,
                              axes_[1].wrapped(ball.position.y()) + y * axes_[1].period);
                 tree_.for_each_near(p, ball.radius, [&](std::uint32_t wall) {
+                    if (!may_collide(ball.filter, tree_.walls()[wall].filter)) return true;
                     const double distance_squared = detail::distance_squared_to(tree_.walls()[wall], p);
                     if (distance_squared < ball.radius * ball.radius)
                         report(wall, ball.radius - std::sqrt(distance_squared), visit);
@@ -175,7 +182,7 @@ Overlap first_overlap(const std::vector<Ball>& balls, const PairSearch& search, 
     // balls on one point takes linear time.
     search.for_each_pair([&](const PairSearch::Disc& a, const PairSearch::Disc& b) {
         if (std::min(a.id, b.id) > first.i) return false;
-        const double depth = depth_of(search, a, b);
+        const double depth = depth_of(search, balls, a, b);
         if (depth <= 0 || depth <= touch(a, b)) return true;
         if (!view.has_ball(a.id) && !view.has_ball(b.id)) return true;
         take(in_order(a.id, b.id, depth));
@@ -222,7 +229,7 @@ std::vector<Overlap> find_overlaps(const std::vector<Ball>& balls, const Scene& 
         if (depth > kTouch * 2 * balls[i].radius) found.push_back({i, i, depth});
     }
     search.for_each_pair([&](const PairSearch::Disc& a, const PairSearch::Disc& b) {
-        const double depth = depth_of(search, a, b);
+        const double depth = depth_of(search, balls, a, b);
         if (depth > 0 && depth > touch(a, b)) found.push_back(in_order(a.id, b.id, depth));
         return true;
     });
@@ -254,7 +261,7 @@ double max_overlap(const std::vector<Ball>& balls, const Scene& scene) {
     for (const Ball& ball : balls)
         deepest = std::max(deepest, depth_in_itself(ball, search.axes()) / (2 * ball.radius));
     search.for_each_pair([&](const PairSearch::Disc& a, const PairSearch::Disc& b) {
-        deepest = std::max(deepest, depth_of(search, a, b) / (a.radius + b.radius));
+        deepest = std::max(deepest, depth_of(search, balls, a, b) / (a.radius + b.radius));
         return true;
     });
     const Walls walls(scene);

@@ -142,6 +142,7 @@ class FillPlacer {
         ball.position = {body.x, body.y};
         ball.radius = body.radius;
         ball.restitution = fill_.restitution;
+        ball.filter = fill_.filter;
         if (fill_.mass) ball.mass = *fill_.mass;
         if (fill_.density) ball.mass = *fill_.density * std::numbers::pi * body.radius * body.radius;
         return ball;

@@ -28,11 +28,12 @@ constexpr Keys kSceneKeys = {"name",         "domain",        "gravity",    "res
                              "tolerance",    "max_travel",    "until",      "description",
                              "$schema"};
 constexpr Keys kDomainKeys = {"min", "max", "boundary", "restitution"};
-constexpr Keys kBallKeys = {"position", "velocity",    "acceleration", "radius",
-                            "mass",     "restitution", "static"};
-constexpr Keys kFillKeys = {"count",       "packing_fraction", "radius", "mass",  "density",
-                            "restitution", "temperature",      "seed",   "region"};
-constexpr Keys kWallKeys = {"from", "to", "restitution"};
+constexpr Keys kBallKeys = {"position",    "velocity", "acceleration", "radius", "mass",
+                            "restitution", "static",   "category",     "mask"};
+constexpr Keys kFillKeys = {"count",   "packing_fraction", "radius",      "mass",
+                            "density", "restitution",      "temperature", "seed",
+                            "region",  "category",         "mask"};
+constexpr Keys kWallKeys = {"from", "to", "restitution", "category", "mask"};
 constexpr Keys kAttractorKeys = {"position", "strength", "softening"};
 constexpr Keys kRangeKeys = {"min", "max"};
 
@@ -88,6 +89,22 @@ Domain read_domain(const Json& value, const Place& place) {
     return domain;
 }
 
+/// Category and mask, each 32 bits.
+CollisionFilter read_filter(const Members& members) {
+    CollisionFilter filter;
+    const auto bits = [&members](std::string_view key, std::uint32_t& target) {
+        members.with(key, [&target](const Json& value, const Place& at) {
+            const std::uint64_t number = read_count(value, at);
+            if (number > 0xffffffff)
+                throw SceneError(at.text(), fmt::format("must be below 2^32, is {}", number));
+            target = static_cast<std::uint32_t>(number);
+        });
+    };
+    bits("category", filter.category);
+    bits("mask", filter.mask);
+    return filter;
+}
+
 Ball read_ball(const Json& value, const Place& place) {
     const Members members(value, place, kBallKeys);
     Ball ball;
@@ -99,6 +116,7 @@ Ball read_ball(const Json& value, const Place& place) {
     members.number("mass", ball.mass);
     members.number("restitution", ball.restitution);
     members.with("static", [&](const Json& flag, const Place& at) { ball.is_static = read_flag(flag, at); });
+    ball.filter = read_filter(members);
     return ball;
 }
 
@@ -131,6 +149,7 @@ Fill read_fill(const Json& value, const Place& place) {
     members.with("region", [&](const Json& region, const Place& at) {
         fill.region = read_box(Members(region, at, kRangeKeys));
     });
+    fill.filter = read_filter(members);
     return fill;
 }
 
@@ -141,6 +160,7 @@ Wall read_wall(const Json& value, const Place& place) {
     members.pair("from", wall.from);
     members.pair("to", wall.to);
     members.number("restitution", wall.restitution);
+    wall.filter = read_filter(members);
     return wall;
 }
 

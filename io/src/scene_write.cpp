@@ -100,6 +100,12 @@ void put_members(ObjectWriter& object, const Domain& domain) {
     object.put_unless(Domain{}.restitution, "restitution", domain.restitution);
 }
 
+void put_filter(ObjectWriter& object, const CollisionFilter& filter) {
+    const CollisionFilter usual;
+    if (filter.category != usual.category) object.raw("category", std::to_string(filter.category));
+    if (filter.mask != usual.mask) object.raw("mask", std::to_string(filter.mask));
+}
+
 void put_members(ObjectWriter& object, const Ball& ball) {
     const Ball usual;
     object.put("position", ball.position);
@@ -109,6 +115,7 @@ void put_members(ObjectWriter& object, const Ball& ball) {
     object.put_unless(usual.mass, "mass", ball.mass);
     object.put_unless(usual.restitution, "restitution", ball.restitution);
     if (ball.is_static) object.raw("static", "true");
+    put_filter(object, ball.filter);
 }
 
 void put_members(ObjectWriter& object, const Fill& fill) {
@@ -126,12 +133,14 @@ void put_members(ObjectWriter& object, const Fill& fill) {
     object.put_unless(usual.temperature, "temperature", fill.temperature);
     if (fill.seed != usual.seed) object.raw("seed", std::to_string(fill.seed));
     if (fill.region) object.put("region", *fill.region);
+    put_filter(object, fill.filter);
 }
 
 void put_members(ObjectWriter& object, const Wall& wall) {
     object.put("from", wall.from);
     object.put("to", wall.to);
     object.put_unless(Wall{}.restitution, "restitution", wall.restitution);
+    put_filter(object, wall.filter);
 }
 
 void put_members(ObjectWriter& object, const Attractor& attractor) {

@@ -40,6 +40,12 @@ Bodies::Bodies(const Physics& scene_physics, std::span<const Ball> balls, std::s
     if (std::ranges::any_of(balls, [](const Ball& b) { return !b.is_static && !b.acceleration.isZero(0); }))
         for (const Ball& b : balls) own_acceleration.push_back(b.acceleration);
 
+    const auto is_filtered = [](const auto& body) { return body.filter != CollisionFilter{}; };
+    if (std::ranges::any_of(balls, is_filtered) || std::ranges::any_of(walls, is_filtered)) {
+        for (const Ball& b : balls) filters.push_back(b.filter);
+        for (const Wall& w : walls) filters.push_back(w.filter);
+    }
+
     const double widest = std::min(grid.x.width(), grid.y.width());
     double largest_radius = 0;
     for (std::uint32_t i = 0; i < count; ++i) {

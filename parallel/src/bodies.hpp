@@ -63,8 +63,10 @@ struct Bodies {
     std::vector<std::uint32_t> wall_ids;
     Property radius, mass, restitution;
     std::vector<std::uint8_t> is_static;  ///< one a ball; empty where none is
-    std::vector<Vec2> own_acceleration;   ///< one a ball; empty where all are zero
-    std::vector<Vec2> fixed;              ///< the places of static balls, one a ball; empty where none is
+    std::vector<CollisionFilter>
+        filters;                         ///< of balls and walls by number; empty where all are the usual one
+    std::vector<Vec2> own_acceleration;  ///< one a ball; empty where all are zero
+    std::vector<Vec2> fixed;             ///< the places of static balls, one a ball; empty where none is
 
     ObstacleMap obstacles;
     ObstacleMap obstacles_of_large;
@@ -87,6 +89,10 @@ struct Bodies {
     /// As errors call it.
     [[nodiscard]] std::string ball_name(std::uint32_t index) const {
         return "balls[" + std::to_string(ball_id(index)) + "]";
+    }
+    /// Whether a ball collides with a body of any kind, by its number; with the domain's sides all do.
+    [[nodiscard]] bool may_meet(std::uint32_t id, std::uint32_t partner) const {
+        return filters.empty() || partner >= first_side() || may_collide(filters[id], filters[partner]);
     }
     [[nodiscard]] bool fixes(std::uint32_t id) const { return !is_static.empty() && is_static[id] != 0; }
     [[nodiscard]] Vec2 own_acceleration_of(std::uint32_t id) const {

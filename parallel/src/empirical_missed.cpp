@@ -173,6 +173,7 @@ double EmpiricalEngine::impact_time(const Pair& pair, const Motion<double>& a,
 }
 
 bool EmpiricalEngine::misses(const Pair& pair) const {
+    if (!bodies_.may_meet(id_[pair.slot], pair.partner)) return false;
     const bool moves = pair.other != kNowhere;
     if (moves && acceleration_.empty() && !is_touched(pair.slot) && !is_touched(pair.other)) {
         if (!meet_straight(pair)) return false;

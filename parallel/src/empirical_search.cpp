@@ -87,6 +87,7 @@ EmpiricalEngine::Touch EmpiricalEngine::touch(const Pair& pair, const Vec2& cent
 
 /// Enters a pair that overlaps at the end of the step.
 void EmpiricalEngine::examine(const Pair& pair, Part& part) const {
+    if (!bodies_.may_meet(id_[pair.slot], pair.partner)) return;
     const bool moves = pair.other != kNowhere;
     const double from = std::max(start_of(pair.slot), moves ? start_of(pair.other) : 0);
     const Motion<double> a = motion_from(pair.slot, from);

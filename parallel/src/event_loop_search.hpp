@@ -122,6 +122,7 @@ bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint3
 /// Predicts ball i against ball j and keeps the better event.
 template <Acceleration A>
 void EventLoopOf<A>::consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) const {
+    if (!bodies_.may_meet(records_[i].id, records_[j].id)) return;
     const Time t = predict_pair(i, j, image);
     if (best.time < t) return;
     const NextEvent event{t, records_[j].id, records_[j].anchor.stamp, image.x, image.y, j};
@@ -208,9 +209,10 @@ void EventLoopOf<A>::scan_each_obstacle(std::uint32_t i, NextEvent& best) const 
     const ObstacleMap& obstacles = large ? bodies_.obstacles_of_large : bodies_.obstacles;
     if (!obstacles.empty()) {
         for (const ObstacleEntry& entry : obstacles.at(grid.index(a.cell)))
-            consider(predict_obstacle(
-                i, entry.id,
-                {grid.x.turns(a.cell.x) + entry.shift_x, grid.y.turns(a.cell.y) + entry.shift_y}));
+            if (bodies_.may_meet(records_[i].id, entry.id))
+                consider(predict_obstacle(
+                    i, entry.id,
+                    {grid.x.turns(a.cell.x) + entry.shift_x, grid.y.turns(a.cell.y) + entry.shift_y}));
     }
     const std::array<Boundary, 2>& boundary = bodies_.physics.domain.boundary;
     if (boundary[0] == Boundary::kWall) {

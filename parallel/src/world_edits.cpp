@@ -23,7 +23,7 @@ struct Member {
     std::uint32_t was = kNew;  // its index until now
     bool is_changed = false;   // in anything
     bool is_edited = false;    // its way so far says nothing of its future
-    bool is_placed = false;    // it is new, elsewhere or of another size, and may overlap
+    bool is_placed = false;    // it is new, elsewhere, or meets others than before, and may overlap
     Body body;
 };
 
@@ -89,7 +89,7 @@ std::vector<Body> bodies_of(const Members<Body>& members) {
 }
 
 void change(Member<Ball>& m, const BallChange& c) {
-    m.is_placed = m.is_placed || c.position || c.radius;
+    m.is_placed = m.is_placed || c.position || c.radius || c.filter;
     m.is_edited = m.is_edited || m.is_placed || c.velocity || c.acceleration;
     if (c.position) m.body.position = *c.position;
     if (c.velocity) m.body.velocity = *c.velocity;
@@ -97,6 +97,7 @@ void change(Member<Ball>& m, const BallChange& c) {
     if (c.radius) m.body.radius = *c.radius;
     if (c.mass) m.body.mass = *c.mass;
     if (c.restitution) m.body.restitution = *c.restitution;
+    if (c.filter) m.body.filter = *c.filter;
     m.is_changed = true;
 }
 

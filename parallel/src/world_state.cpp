@@ -171,9 +171,14 @@ const PlaceIndex& World::State::places() const {
 
 Ball World::State::ball(std::uint32_t index, const BallState& s) const {
     const Bodies& b = bodies();
-    return {s.position,         s.velocity,       b.own_acceleration_of(index),
-            b.radius.of(index), b.mass.of(index), b.restitution.of(index),
-            b.fixes(index)};
+    return {s.position,
+            s.velocity,
+            b.own_acceleration_of(index),
+            b.radius.of(index),
+            b.mass.of(index),
+            b.restitution.of(index),
+            b.fixes(index),
+            b.filters.empty() ? CollisionFilter{} : b.filters[index]};
 }
 
 std::vector<Ball> World::State::balls() const {

@@ -25,6 +25,17 @@ enum class Boundary : std::uint8_t { kWall, kPeriodic, kOpen };
 /// that it left, and traced back from there; faster or slower, as accurate as the step is short.
 enum class Method : std::uint8_t { kEvent, kEmpirical };
 
+/// Who collides with whom: two bodies do where each one's category has a bit in the other's mask.
+struct CollisionFilter {
+    std::uint32_t category = 1;
+    std::uint32_t mask = 0xffffffff;
+    friend bool operator==(const CollisionFilter&, const CollisionFilter&) = default;
+};
+
+[[nodiscard]] constexpr bool may_collide(const CollisionFilter& a, const CollisionFilter& b) {
+    return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
+}
+
 /// A disc. `acceleration` is its own, added to the scene's gravity. A static ball never moves and has, in
 /// effect, infinite mass.
 struct Ball {
@@ -35,6 +46,7 @@ struct Ball {
     double mass = 1;
     double restitution = 1;
     bool is_static = false;
+    CollisionFilter filter = {};
 };
 
 /// A segment that balls hit from both sides and at both ends.
@@ -42,6 +54,7 @@ struct Wall {
     Vec2 from = Vec2::Zero();
     Vec2 to = Vec2::Zero();
     double restitution = 1;
+    CollisionFilter filter = {};
 };
 
 /// Pulls a ball at distance d with acceleration k d / (d^2 + s^2)^(3/2) along the line of centres; k < 0
@@ -79,7 +92,8 @@ struct Fill {
     double temperature =
         0;  ///< variance of a velocity component times the mass; the total momentum is removed
     std::uint64_t seed = 1;
-    std::optional<Box> region;  ///< the domain's box where absent
+    std::optional<Box> region;    ///< the domain's box where absent
+    CollisionFilter filter = {};  ///< every ball's; placed without overlap all the same
 };
 
 struct Scene {

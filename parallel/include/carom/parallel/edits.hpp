@@ -19,6 +19,7 @@ struct BallChange {
     std::optional<double> radius = {};
     std::optional<double> mass = {};
     std::optional<double> restitution = {};
+    std::optional<CollisionFilter> filter = {};
 };
 
 /// Edits that take place together, at a world's time: World::apply(). Changes come before removals, removals
