@@ -27,7 +27,7 @@ namespace {
 
 constexpr const char* kFooter =
     R"(Draws scene after scene from all that a scene can have: gases and piles in periodic, walled and open boxes, walls that meet,
-static and large balls, masses from 1e-6 to 1e6, gravity, own accelerations, attractors, losses, touching and overlapping
+static and large balls, masses from 1e-3 to 1e6, gravity, own accelerations, attractors, losses, touching and overlapping
 starts, fast balls, float, other units. Each is run by several worlds with other threads, domains, cells and frames, and one
 that goes on from a snapshot. After each stretch of time all must show the same bits, and it is checked that no bodies overlap, that
 the list of collisions goes forward, obeys the law of impact and leads to the velocities and the energy shown, and, in small
@@ -37,7 +37,7 @@ A scene that fails is made smaller while it still fails, and written to --out wi
 With SCENE files it is those that are examined: any scene can be put to the same test.
 
 The last line of standard output is for scripts:
-  stress: 412 scenes, 3.1e6 collisions, seed 7, 0 failures
+  stress: 412 scenes, 3.1e+06 collisions, seed 7, 0 failures
 Exit status: 0 where nothing failed, 1 where something did.
 
 Examples:

@@ -26,6 +26,19 @@ TEST(Bisection, FindsWhatTheStepEndsIn) {
     EXPECT_EQ(impact->normal, Vec2(-1, 0));
 }
 
+// By hand: the parts of a short wall, whose length is none of its units.
+TEST(Bisection, KnowsThePartOfAWallThatIsNearest) {
+    const auto nearest = [](const Vec2& p) { return detail::distance_to_wall<double>(p, {1, 1}, {1.5, 1}); };
+    EXPECT_EQ(nearest({1.25, 3}).feature, WallFeature::kFace);
+    EXPECT_EQ(nearest({1.25, 3}).distance, 2);
+    EXPECT_EQ(nearest({1.0625, 1.5}).feature, WallFeature::kFace);
+    EXPECT_EQ(nearest({1.0625, 1.5}).distance, 0.5);
+    EXPECT_EQ(nearest({0.25, 2}).feature, WallFeature::kFrom);
+    EXPECT_EQ(nearest({0.25, 2}).distance, 1.25);
+    EXPECT_EQ(nearest({2.25, 0}).feature, WallFeature::kTo);
+    EXPECT_EQ(nearest({2.25, 0}).distance, 1.25);
+}
+
 TEST(Bisection, ComesWithinTheToleranceOfTheExactTime) {
     SCOPED_TRACE("seed 61");
     test::Random random(61);

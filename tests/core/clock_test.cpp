@@ -45,6 +45,12 @@ TEST(Clock, AfterRoundsOnceAndStaysInTheEpoch) {
     }
 }
 
+TEST(Clock, TheEndOfAnEpochIsTheStartOfTheNext) {
+    const Clock clock(16);
+    EXPECT_EQ(clock.after({3, 12}, 4), (Time{4, 0}));
+    EXPECT_EQ(clock.after({3, 0}, 32), (Time{5, 0}));
+}
+
 TEST(Clock, DifferenceUndoesAfter) {
     constexpr std::uint64_t kSeed = 2;
     std::mt19937_64 random(kSeed);

@@ -242,6 +242,39 @@ TEST(CheckScene, AcceptsAPeriodicBoxAsWideAsItsBall) {
     EXPECT_THROW(check(scene), SceneError);
 }
 
+TEST(CheckScene, AcceptsAWallFromPeriodicSideToSide) {
+    Scene scene;
+    scene.balls.resize(1);
+    scene.balls[0].position = {5, 5};
+    scene.domain = Domain{{{1, 1}, {11, 11}}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
+    scene.walls = {{{1, 2}, {11, 3}, 1}, {{2, 1}, {3, 11}, 1}};
+    EXPECT_NO_THROW(check(scene));
+    scene.walls[0].from.x() = 0.999;
+    EXPECT_THROW(check(scene), SceneError);
+}
+
+// Float ends near 3.4e38: what is within 1e30 and what is not, in float and in double.
+TEST(CheckScene, KnowsTheRangeOfFloat) {
+    const auto is_refused = [](Precision precision, const Vec2& position, const Vec2& velocity) {
+        Scene scene;
+        scene.precision = precision;
+        scene.balls.resize(1);
+        scene.balls[0].position = position;
+        scene.balls[0].velocity = velocity;
+        try {
+            check(scene);
+        } catch (const SceneError&) {
+            return true;
+        }
+        return false;
+    };
+    EXPECT_FALSE(is_refused(Precision::kFloat, {1e30, -1e30}, {0, 0}));
+    EXPECT_FALSE(is_refused(Precision::kFloat, {0, 0}, {1, -1e30}));
+    EXPECT_TRUE(is_refused(Precision::kFloat, {0, -1.1e30}, {0, 0}));
+    EXPECT_TRUE(is_refused(Precision::kFloat, {0, 0}, {1.1e30, 0}));
+    EXPECT_FALSE(is_refused(Precision::kDouble, {0, -1.1e30}, {1.1e30, 0}));
+}
+
 TEST(CheckScene, NamesTheFirstFaultAmongMany) {
     Scene scene = sound_scene();
     scene.domain.reset();
