@@ -11,6 +11,8 @@
 #include <carom/io/xyz.hpp>
 #include <carom/parallel/world.hpp>
 
+#include "observation.hpp"
+
 namespace carom::app {
 
 /// The command line of `carom run`. An empty path: not wanted.
@@ -29,7 +31,8 @@ struct RunOptions {
     int domains = 0;
     int halo = 0;
     std::string trajectory;
-    std::optional<double> every;  ///< given exactly when `trajectory` is
+    std::optional<double> every;  ///< given exactly when `trajectory` or an observation is
+    ObservationOptions observation;
     std::string events;
     std::string final_state;
     std::string picture;
@@ -47,6 +50,7 @@ struct RunOutputs {
     RunOutputs(const RunOptions& options, const RunRecord& done);
 
     std::optional<XyzTrajectory> trajectory;
+    std::optional<Observation> observation;
     std::optional<EventsCsv> events;
     std::optional<AtomicFile> final_state;
     std::optional<AtomicFile> picture;

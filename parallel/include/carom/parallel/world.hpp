@@ -81,6 +81,8 @@ class World {
     /// State at time(); reading anchors nothing. Periodic positions lie inside the box.
     [[nodiscard]] PlaneVectors positions() const;
     [[nodiscard]] PlaneVectors velocities() const;
+    /// Where balls would be had periodic sides not taken them back, from their positions at time 0 on.
+    [[nodiscard]] PlaneVectors unwrapped_positions() const;
     /// The same rounded to float, for what draws or needs no more: 8 bytes a ball.
     [[nodiscard]] std::vector<Vector2<float>> positions_in_float() const;
     [[nodiscard]] std::vector<Vector2<float>> velocities_in_float() const;
