@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include <carom/io/summary.hpp>
+#include <carom/io/xyz.hpp>
 
 #include "checkpointer.hpp"
 #include "driver.hpp"
@@ -178,10 +179,10 @@ RunOutputs::RunOutputs(const RunOptions& options, const RunRecord& done) {
     else
         open_if_named(events, options.events);
     if (options.observation.is_wanted()) observation.emplace(options.observation);
-    if (done.trajectory_bytes > 0)
-        open_if_named(trajectory, options.trajectory, done.trajectory_bytes);
-    else
-        open_if_named(trajectory, options.trajectory);
+    if (options.trajectory.empty()) return;
+    const bool goes_on = done.trajectory_bytes > 0;
+    trajectory = open_trajectory(options.trajectory,
+                                 goes_on ? KeptFrames{done.trajectory_bytes, done.next_frame} : KeptFrames{});
 }
 
 bool run_world(World& world, const Scene& scene, double until, const RunOptions& options,

@@ -1,6 +1,7 @@
 // A run: a world moved to its end, and what is written on the way and there.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -8,7 +9,7 @@
 #include <carom/io/atomic_file.hpp>
 #include <carom/io/checkpoint.hpp>
 #include <carom/io/events_csv.hpp>
-#include <carom/io/xyz.hpp>
+#include <carom/io/trajectory.hpp>
 #include <carom/parallel/world.hpp>
 
 #include "observation.hpp"
@@ -49,7 +50,7 @@ struct RunOptions {
 struct RunOutputs {
     RunOutputs(const RunOptions& options, const RunRecord& done);
 
-    std::optional<XyzTrajectory> trajectory;
+    std::unique_ptr<Trajectory> trajectory;
     std::optional<Observation> observation;
     std::optional<EventsCsv> events;
     std::optional<AtomicFile> final_state;

@@ -29,7 +29,8 @@ or --cell-size, to the last bit: 'state_hash' in the summary says so.
 result depends on --step, --max-travel and --tolerance, and not on --threads or --cell-size. What it misses is counted:
 'missed_collisions'.
 
-Files ending in .xyz are extended XYZ, one frame after the other, with enough digits to read back the same bits.
+Files ending in .xyz are extended XYZ, one frame after the other, with enough digits to read back the same bits. --trajectory
+writes H5MD (compressed, needs HDF5) where its name ends in .h5, a LAMMPS dump where it ends in .lammpstrj or .dump.
 --events writes CSV, one collision a line: time,kind,i,j,x,y,nx,ny,impulse. The summary is one JSON object. All outputs
 but these appear whole, at the end: the trajectory and --observables grow as the run goes, and so does --events with
 --checkpoint. A rate or pressure of --observables is the mean since the row before.
@@ -144,8 +145,8 @@ void add_output_options(CLI::App& command, RunOptions& options) {
     const char* const group = "Outputs";
     command
         .add_option("--trajectory", options.trajectory, "All balls at times 0, DT, 2 DT, ... and at the end")
-        ->option_text("FILE.xyz")
-        ->check(xyz_path())
+        ->option_text("FILE.xyz|.h5|.lammpstrj")
+        ->check(trajectory_path())
         ->group(group);
     command
         .add_option("--every", options.every,
