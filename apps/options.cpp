@@ -10,6 +10,8 @@
 #include <map>
 #include <string>
 
+#include <carom/io/trajectory.hpp>
+
 #include "picture_file.hpp"
 
 namespace carom::app {
@@ -71,6 +73,10 @@ CLI::Validator picture_path() {
 
 CLI::Validator picture_size_text() {
     return parse_check([](const std::string& text) { (void)parse_picture_size(text); });
+}
+
+CLI::Validator trajectory_path() {
+    return {[](std::string& text) { return fault_of_trajectory_path(text); }, ""};
 }
 
 CLI::Validator xyz_path() {

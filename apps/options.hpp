@@ -19,6 +19,8 @@ namespace carom::app {
 [[nodiscard]] CLI::Validator picture_path();
 /// WIDTHxHEIGHT.
 [[nodiscard]] CLI::Validator picture_size_text();
+/// A path that ends in one of the formats of trajectories that this build writes.
+[[nodiscard]] CLI::Validator trajectory_path();
 /// A path that ends in .xyz.
 [[nodiscard]] CLI::Validator xyz_path();
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include <carom/io/summary.hpp>
+#include <carom/io/xyz.hpp>
 
 #include "checkpointer.hpp"
 #include "driver.hpp"
@@ -30,14 +31,20 @@ std::uint64_t peak_memory_bytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
-void listen(World& world, Driver& driver, EventsCsv& events) {
-    world.on_collision([&driver, &events](const Collision& collision) {
+void write_event(EventsCsv& events, const Collision& collision) {
+    const auto kind =
+        collision.kind == CollisionKind::kBall ? EventsCsv::Kind::kBall : EventsCsv::Kind::kWall;
+    events.write({collision.time, kind, collision.i, collision.j, collision.point, collision.normal,
+                  collision.impulse});
+}
+
+void listen(World& world, Driver& driver, RunOutputs& outputs, bool observes) {
+    if (!outputs.events && !observes) return;
+    world.on_collision([&driver, &outputs, observes](const Collision& collision) {
         if (driver.failure) return;
         try {
-            const auto kind =
-                collision.kind == CollisionKind::kBall ? EventsCsv::Kind::kBall : EventsCsv::Kind::kWall;
-            events.write({collision.time, kind, collision.i, collision.j, collision.point, collision.normal,
-                          collision.impulse});
+            if (outputs.events) write_event(*outputs.events, collision);
+            if (observes) outputs.observation->record(collision);
         } catch (...) {
             driver.failure = std::current_exception();
         }
@@ -53,6 +60,13 @@ bool move_to_end(World& world, Driver& driver, const Scene& scene, double until,
                  Checkpointer& checkpointer, RunOutputs& outputs) {
     RunRecord& record = checkpointer.record;
     Multiples frames(record.frame_interval, outputs.trajectory ? until : 0, double(record.next_frame));
+    const double interval = options.every.value_or(1);
+    Multiples samples(interval, outputs.observation ? until : 0);
+    double last_sample = -1;
+    const auto sample = [&] {
+        outputs.observation->sample(world);
+        last_sample = world.time();
+    };
     const bool stops = options.step && scene.method == Method::kEvent;
     Multiples steps = Multiples::after(world.time(), options.step.value_or(1), stops ? until : 0);
     Multiples checkpoints =
@@ -69,14 +83,19 @@ bool move_to_end(World& world, Driver& driver, const Scene& scene, double until,
         const std::optional<double> frame = frames.next();
         const std::optional<double> step = steps.next();
         const std::optional<double> checkpoint = checkpoints.next();
-        if (!frame && !step && !checkpoint) break;
-        const double stop =
-            std::min({frame.value_or(until), step.value_or(until), checkpoint.value_or(until)});
+        const std::optional<double> next_sample = samples.next();
+        if (!frame && !step && !checkpoint && !next_sample) break;
+        const double stop = std::min({frame.value_or(until), step.value_or(until), checkpoint.value_or(until),
+                                      next_sample.value_or(until)});
         going = driver.advance_to(stop);
         if (going && frame && *frame <= stop) {
             write_frame();
             frames.advance();
             ++record.next_frame;
+        }
+        if (going && next_sample && *next_sample <= stop) {
+            sample();
+            samples.advance();
         }
         if (step && *step <= stop) steps.advance();
         if (going && checkpoint && *checkpoint <= stop) {
@@ -92,6 +111,7 @@ bool move_to_end(World& world, Driver& driver, const Scene& scene, double until,
     going = going && driver.advance_to(until);
     // Of this run's end, not of the one that a checkpoint may lead to.
     if (outputs.trajectory && last_frame < world.time()) write_frame();
+    if (outputs.observation && last_sample < world.time()) sample();
     return going;
 }
 
@@ -132,6 +152,7 @@ Summary summary_of(const World& world, const Scene& scene, const RunRecord& reco
 
 void write_end(const World& world, const Scene& scene, const RunOptions& options, RunOutputs& outputs) {
     if (outputs.events) outputs.events->commit();
+    if (outputs.observation) outputs.observation->commit();
     if (outputs.final_state) {
         std::string text;
         append_xyz(text, world.time(), world.balls(), scene.domain, output_precision(scene, options));
@@ -157,10 +178,11 @@ RunOutputs::RunOutputs(const RunOptions& options, const RunRecord& done) {
         open_if_named(events, options.events, done.events_bytes);
     else
         open_if_named(events, options.events);
-    if (done.trajectory_bytes > 0)
-        open_if_named(trajectory, options.trajectory, done.trajectory_bytes);
-    else
-        open_if_named(trajectory, options.trajectory);
+    if (options.observation.is_wanted()) observation.emplace(options.observation);
+    if (options.trajectory.empty()) return;
+    const bool goes_on = done.trajectory_bytes > 0;
+    trajectory = open_trajectory(options.trajectory,
+                                 goes_on ? KeptFrames{done.trajectory_bytes, done.next_frame} : KeptFrames{});
 }
 
 bool run_world(World& world, const Scene& scene, double until, const RunOptions& options,
@@ -169,7 +191,7 @@ bool run_world(World& world, const Scene& scene, double until, const RunOptions&
     const Counts before = world.counts();
     Progress progress(!options.quiet, world.time(), until, before.ball_collisions + before.wall_collisions);
     Driver driver(world, progress, until);
-    if (outputs.events) listen(world, driver, *outputs.events);
+    listen(world, driver, outputs, outputs.observation && outputs.observation->begin(world));
 
     checkpointer.start_clock();
     const bool finished = move_to_end(world, driver, scene, until, options, checkpointer, outputs);

@@ -1,6 +1,7 @@
 // A run: a world moved to its end, and what is written on the way and there.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -8,8 +9,10 @@
 #include <carom/io/atomic_file.hpp>
 #include <carom/io/checkpoint.hpp>
 #include <carom/io/events_csv.hpp>
-#include <carom/io/xyz.hpp>
+#include <carom/io/trajectory.hpp>
 #include <carom/parallel/world.hpp>
+
+#include "observation.hpp"
 
 namespace carom::app {
 
@@ -30,7 +33,8 @@ struct RunOptions {
     int halo = 0;
     bool check_memory = true;
     std::string trajectory;
-    std::optional<double> every;  ///< given exactly when `trajectory` is
+    std::optional<double> every;  ///< given exactly when `trajectory` or an observation is
+    ObservationOptions observation;
     std::string events;
     std::string final_state;
     std::string picture;
@@ -47,7 +51,8 @@ struct RunOptions {
 struct RunOutputs {
     RunOutputs(const RunOptions& options, const RunRecord& done);
 
-    std::optional<XyzTrajectory> trajectory;
+    std::unique_ptr<Trajectory> trajectory;
+    std::optional<Observation> observation;
     std::optional<EventsCsv> events;
     std::optional<AtomicFile> final_state;
     std::optional<AtomicFile> picture;

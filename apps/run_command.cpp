@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "memory_need.hpp"
+#include "observation_options.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
 #include "run.hpp"
@@ -29,9 +30,11 @@ or --cell-size, to the last bit: 'state_hash' in the summary says so.
 result depends on --step, --max-travel and --tolerance, and not on --threads or --cell-size. What it misses is counted:
 'missed_collisions'.
 
-Files ending in .xyz are extended XYZ, one frame after the other, with enough digits to read back the same bits.
+Files ending in .xyz are extended XYZ, one frame after the other, with enough digits to read back the same bits. --trajectory
+writes H5MD (compressed, needs HDF5) where its name ends in .h5, a LAMMPS dump where it ends in .lammpstrj or .dump.
 --events writes CSV, one collision a line: time,kind,i,j,x,y,nx,ny,impulse. The summary is one JSON object. All outputs
-but the trajectory appear whole, at the end; the trajectory grows as the run goes, and so does --events with --checkpoint.
+but these appear whole, at the end: the trajectory and --observables grow as the run goes, and so does --events with
+--checkpoint. A rate or pressure of --observables is the mean since the row before.
 
 Ctrl-C ends a run early and writes what was asked for, up to the time reached; a second one ends it at once.
 
@@ -45,16 +48,21 @@ Examples:
   carom run gas.json --until 100 --summary gas.out   Go on longer; summary to a file
   carom run gas.json --method empirical --step 0.001
   carom run gas.json --trajectory gas.xyz --every 0.5
+  carom run gas.json --observables gas.csv --structure gas-structure.json --every 0.5 --average-from 20
   carom run gas.json --events hits.csv --picture end.png --final end.xyz
   carom run gas.json --checkpoint gas.ckpt --checkpoint-every 10
   carom run gas.json --resume gas.ckpt --checkpoint gas.ckpt
   carom run gas.json --quiet | jq .collisions_per_second)";
 
 void require_distinct_files(const RunOptions& options) {
-    std::vector<NamedPath> files = {
-        {"--trajectory", options.trajectory}, {"--events", options.events},
-        {"--final", options.final_state},     {"--picture", options.picture},
-        {"--summary", options.summary},       {"--checkpoint", options.checkpoint}};
+    std::vector<NamedPath> files = {{"--trajectory", options.trajectory},
+                                    {"--events", options.events},
+                                    {"--final", options.final_state},
+                                    {"--picture", options.picture},
+                                    {"--observables", options.observation.observables},
+                                    {"--structure", options.observation.structure},
+                                    {"--summary", options.summary},
+                                    {"--checkpoint", options.checkpoint}};
     require_distinct({"the scene", options.scene}, files);
     files.pop_back();  // a checkpoint may take the place of the one that was gone on from
     if (!options.resume.empty()) require_distinct({"the checkpoint", options.resume}, files);
@@ -108,6 +116,7 @@ void take_method(Scene& scene, const RunOptions& options) {
 }
 
 int run(const RunOptions& options) {
+    require_fitting(options);
     require_distinct_files(options);
     Scene scene = read_scene(options.scene);
     scene.precision = options.precision.value_or(scene.precision);
@@ -136,14 +145,17 @@ int run(const RunOptions& options) {
 
 void add_output_options(CLI::App& command, RunOptions& options) {
     const char* const group = "Outputs";
-    CLI::Option* const trajectory = command.add_option("--trajectory", options.trajectory,
-                                                       "All balls at times 0, DT, 2 DT, ... and at the end");
-    trajectory->option_text("FILE.xyz")->check(xyz_path())->group(group);
-    CLI::Option* const every =
-        command.add_option("--every", options.every, "Simulated time between the trajectory's frames");
-    every->option_text("DT")->check(positive_number())->group(group);
-    trajectory->needs(every);
-    every->needs(trajectory);
+    command
+        .add_option("--trajectory", options.trajectory, "All balls at times 0, DT, 2 DT, ... and at the end")
+        ->option_text("FILE.xyz|.h5|.lammpstrj")
+        ->check(trajectory_path())
+        ->group(group);
+    command
+        .add_option("--every", options.every,
+                    "Simulated time between the trajectory's frames, and between samples")
+        ->option_text("DT")
+        ->check(positive_number())
+        ->group(group);
     add_precision_option(command, "--output-precision", options.output_precision,
                          "Of positions and velocities in .xyz files (default: as simulated)")
         ->group(group);
@@ -249,6 +261,7 @@ void add_run_command(CLI::App& app, int& status) {
     command->add_flag("!--no-memory-check", options->check_memory,
                       "Do not refuse a scene that needs more memory than there is");
     add_output_options(*command, *options);
+    add_observation_options(*command, options->observation);
     add_checkpoint_options(*command, *options);
     command->callback([options, &status] { status = run(*options); });
 }

@@ -1,7 +1,7 @@
 # Installs what the build needs and is missing, from Debian's packages. Sourced by ./run, ./test and .ci/run.
 
 carom_packages="ca-certificates cmake g++ libbenchmark-dev libboost-dev libcairo2-dev libcli11-dev libeigen3-dev libfmt-dev libgtest-dev
-    libgmock-dev libtbb-dev libvalijson-dev ninja-build nlohmann-json3-dev pkg-config"
+    libgmock-dev libhdf5-dev libtbb-dev libvalijson-dev ninja-build nlohmann-json3-dev pkg-config"
 
 # carom_install PACKAGE...: installs those that are not there; quiet and quick when all are.
 carom_install() {

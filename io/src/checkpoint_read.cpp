@@ -10,6 +10,7 @@
 
 #include "checkpoint_layout.hpp"
 #include "crc64.hpp"
+#include "json_value.hpp"
 #include "little_endian.hpp"
 #include "read_file.hpp"
 
@@ -60,7 +61,7 @@ struct SectionReader {
     const std::string& file;
 
     [[noreturn]] void fail(std::string_view name) const {
-        throw FileError(file, fmt::format("is no sound checkpoint: section '{}'", name));
+        throw FileError(file, fmt::format("is no sound checkpoint: section '{}'", quotable(name)));
     }
     std::optional<std::string_view> find(std::string_view name) {
         const auto found = std::ranges::find(sections, name, &Section::name);
@@ -128,6 +129,8 @@ Checkpoint parse_checkpoint(std::string_view bytes, const std::string& name) {
     checkpoint.snapshot.scene_hash = source.take<std::uint64_t>();
     reader.balls = source.take<std::uint64_t>();
     checkpoint.snapshot.method = source.name();
+    if (quotable(checkpoint.snapshot.method) != checkpoint.snapshot.method)
+        throw FileError(name, "is no sound checkpoint: its method has no name");
     for (std::uint32_t k = 0; k < count; ++k) {
         if (source.size() < kSectionHeaderSize) reader.fail("number " + std::to_string(k));
         const std::string section = source.name();

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include <carom/io/atomic_file.hpp>
+#include <carom/io/lammps.hpp>
 #include <carom/io/scene_file.hpp>
-#include <carom/io/xyz.hpp>
 
 #include "json_stream.hpp"
 #include "json_value.hpp"
@@ -264,7 +264,7 @@ class SceneReader {
         if (balls_file_.empty()) throw SceneError("balls_file", "must name a file, is \"\"");
         XyzFrame frame;
         try {
-            frame = read_xyz(folder_ / balls_file_);
+            frame = read_balls(folder_ / balls_file_);
         } catch (const FileError& error) {
             throw SceneError("balls_file", error.what());
         }

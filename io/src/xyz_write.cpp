@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <carom/io/atomic_file.hpp>
 #include <carom/io/xyz.hpp>
 
 namespace carom {
@@ -84,13 +85,6 @@ void write_xyz(const std::filesystem::path& path, double time, std::span<const B
     append_xyz(text, time, balls, domain);
     file.write(text);
     file.commit();
-}
-
-void XyzTrajectory::write(double time, std::span<const Ball> balls, const std::optional<Domain>& domain,
-                          Precision precision) {
-    text_.clear();
-    append_xyz(text_, time, balls, domain, precision);
-    file_.write(text_);
 }
 
 }  // namespace carom

@@ -79,6 +79,13 @@ PlaneVectors World::velocities() const {
     return out;
 }
 
+PlaneVectors World::unwrapped_positions() const {
+    const std::vector<BallState>& states = state_->states();
+    PlaneVectors out(states.size());
+    std::ranges::transform(states, out.begin(), &BallState::unwrapped);
+    return out;
+}
+
 std::vector<Ball> World::balls() const {
     return state_->balls();
 }

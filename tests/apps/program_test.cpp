@@ -51,8 +51,8 @@ TEST(Program, WrongUsageIsOneLineAndStatusTwo) {
     expect_one_error(folder.run({"run", "s.json", "--threads", "0"}), 2, "--threads");
     expect_one_error(folder.run({"run", "s.json", "--trajectory", "t.xyz"}), 2, "--every");
     expect_one_error(folder.run({"run", "s.json", "--every", "1"}), 2, "--trajectory");
-    expect_one_error(folder.run({"run", "s.json", "--trajectory", "t.h5", "--every", "1"}), 2,
-                     "unknown format '.h5'");
+    expect_one_error(folder.run({"run", "s.json", "--trajectory", "t.gro", "--every", "1"}), 2,
+                     "unknown format '.gro'");
     expect_one_error(folder.run({"run", "s.json", "--picture", "p.mp4"}), 2,
                      "unknown picture format '.mp4' (known: .png, .svg)");
     expect_one_error(folder.run({"render", "s.json", "--out", "p.mp4"}), 2,

@@ -1,4 +1,6 @@
 // Extended XYZ: bits survive, foreign files are understood, torn ones refused at their line.
+#include <carom/io/atomic_file.hpp>
+#include <carom/io/trajectory.hpp>
 #include <carom/io/xyz.hpp>
 
 #include <algorithm>
@@ -235,15 +237,15 @@ TEST(Xyz, TrajectoriesGrowByFrames) {
     const auto path = folder / "run.xyz";
     put_file(path, "an older file\n");
     {
-        XyzTrajectory trajectory(path);
-        trajectory.write(0, frames[0], std::nullopt);
-        trajectory.write(1, frames[1], std::nullopt);
+        const auto trajectory = open_trajectory(path);
+        trajectory->write(0, frames[0], std::nullopt, Precision::kDouble);
+        trajectory->write(1, frames[1], std::nullopt, Precision::kDouble);
     }
     expect_same(frames[1], read_xyz(path).balls);
     {
-        XyzTrajectory trajectory(path, std::filesystem::file_size(path));
-        trajectory.write(2, frames[2], std::nullopt);
-        trajectory.write(3, frames[3], std::nullopt);
+        const auto trajectory = open_trajectory(path, {std::filesystem::file_size(path), 1});
+        trajectory->write(2, frames[2], std::nullopt, Precision::kDouble);
+        trajectory->write(3, frames[3], std::nullopt, Precision::kDouble);
     }
     std::size_t count = 0;
     for_each_xyz_frame(path, [&](const XyzFrame& frame) {
@@ -252,7 +254,7 @@ TEST(Xyz, TrajectoriesGrowByFrames) {
         return ++count < 4;
     });
     EXPECT_EQ(count, 4U);
-    EXPECT_THROW(XyzTrajectory(folder / "no/such/folder.xyz"), FileError);
+    EXPECT_THROW((void)open_trajectory(folder / "no/such/folder.xyz"), FileError);
 }
 
 TEST(Xyz, FilesAreWrittenWholeAndReadBack) {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include <carom/core/scene.hpp>
-#include <carom/io/growing_file.hpp>
 
 namespace carom {
 
@@ -50,26 +49,5 @@ void append_xyz(std::string& text, double time, std::span<const Ball> balls,
 /// A file of one frame, written whole or not at all. Throws FileError.
 void write_xyz(const std::filesystem::path& path, double time, std::span<const Ball> balls,
                const std::optional<Domain>& domain);
-
-/// A file that grows by a frame at a time and can be read while it does.
-class XyzTrajectory {
- public:
-    /// Empties the file. Throws FileError, as do the others.
-    explicit XyzTrajectory(const std::filesystem::path& path) : file_(path) {}
-    /// Goes on after the frames in the first `kept` bytes, see GrowingFile.
-    XyzTrajectory(const std::filesystem::path& path, std::uint64_t kept) : file_(path, kept) {}
-
-    void write(double time, std::span<const Ball> balls, const std::optional<Domain>& domain,
-               Precision precision = Precision::kDouble);
-    /// Forces the frames to the disk; gives the bytes that they take.
-    std::uint64_t sync() {
-        file_.sync();
-        return file_.size();
-    }
-
- private:
-    GrowingFile file_;
-    std::string text_;
-};
 
 }  // namespace carom

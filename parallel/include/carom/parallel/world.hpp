@@ -83,6 +83,8 @@ class World {
     /// the order of the ids; as long as no ball has been removed, a ball's id is its index.
     [[nodiscard]] PlaneVectors positions() const;
     [[nodiscard]] PlaneVectors velocities() const;
+    /// Where balls would be had periodic sides not taken them back, from their positions at time 0 on.
+    [[nodiscard]] PlaneVectors unwrapped_positions() const;
     /// The same rounded to float, for what draws or needs no more: 8 bytes a ball.
     [[nodiscard]] std::vector<Vector2<float>> positions_in_float() const;
     [[nodiscard]] std::vector<Vector2<float>> velocities_in_float() const;
