@@ -168,6 +168,11 @@ class EmpiricalEngine final : public Engine {
     [[nodiscard]] bool overlap_at_end(std::uint32_t a, std::uint32_t b, const Vec2& shift) const;
     [[nodiscard]] Touch touch(const Pair& pair, const Vec2& centre, const Vec2& other) const;
     [[nodiscard]] Meeting meeting_of(const Pair& pair, double time) const;
+    /// Of a way through more periods than a few, and of what is further beside a way, nothing is looked at.
+    [[nodiscard]] static double within_periods(const GridAxis& axis, double length) {
+        constexpr double kMostPeriods = 8;
+        return axis.periodic() ? std::min(length, kMostPeriods * axis.length()) : length;
+    }
     /// All images of a moving point, known in boxes, that may come within `reach` of another.
     template <class Visit>
     void for_each_image(const Vec2& offset, double reach, Visit&& visit) const;
@@ -266,8 +271,9 @@ template <class Visit>
 void EmpiricalEngine::for_each_image(const Vec2& offset, double reach, Visit&& visit) const {
     const auto range = [reach](const GridAxis& axis, double d) {
         if (!axis.periodic()) return std::pair(0, 0);
-        return std::pair(static_cast<std::int32_t>(std::ceil((d - reach) / axis.length())),
-                         static_cast<std::int32_t>(std::floor((d + reach) / axis.length())));
+        const double within = within_periods(axis, reach);
+        return std::pair(static_cast<std::int32_t>(std::ceil((d - within) / axis.length())),
+                         static_cast<std::int32_t>(std::floor((d + within) / axis.length())));
     };
     const auto [first_x, last_x] = range(bodies_.grid.x, offset.x());
     const auto [first_y, last_y] = range(bodies_.grid.y, offset.y());

@@ -14,8 +14,6 @@ namespace carom {
 namespace {
 
 constexpr std::size_t kSlotsOfPart = 1024;
-// Of a way through more periods than this only the last ones are looked at.
-constexpr double kMostPeriods = 8;
 
 /// How far a coordinate goes to either side of where it ends.
 void extend(double x, double v, double a, double duration, double end, double& low, double& high) {
@@ -58,8 +56,8 @@ double EmpiricalEngine::travel_of(std::uint32_t slot, Vec2& low, Vec2& high) con
         extend(leg.y, leg.vy, a.y(), duration, end.y(), low.y(), high.y());
     }
     const Grid& grid = bodies_.grid;
-    const Vec2 most = {grid.x.periodic() ? kMostPeriods * grid.x.length() : high.x() - low.x(),
-                       grid.y.periodic() ? kMostPeriods * grid.y.length() : high.y() - low.y()};
+    const Vec2 most = {within_periods(grid.x, high.x() - low.x()),
+                       within_periods(grid.y, high.y() - low.y())};
     low = low.cwiseMax(-most);
     high = high.cwiseMin(most);
     const double travel = std::max(-low.minCoeff(), high.maxCoeff());
@@ -88,6 +86,7 @@ void EmpiricalEngine::count_missed_of(std::uint32_t slot, Part& part) const {
     Vec2 high;
     const double travel = travel_of(slot, low, high);
     const double radius = radius_of(slot);
+    const Grid& grid = bodies_.grid;
     const auto consider = [&](std::uint32_t j, const Image& shift) {
         const double reach = radius + radius_of(j) + travel + travel_[j];
         const Vec2 d = wrapped_end(slot) - wrapped_end(j) - offset_of(shift);
@@ -100,16 +99,16 @@ void EmpiricalEngine::count_missed_of(std::uint32_t slot, Part& part) const {
     const bool is_large = !is_large_.empty() && is_large_[slot] != 0;
     if (!is_large) {
         const double reach = (radius + bodies_.largest_listed_radius + travel) * (1 + kCellMargin);
-        grid_.for_each_in(
-            low - Vec2::Constant(reach), high + Vec2::Constant(reach), [&](const EmpiricalGrid::Near& c) {
-                const Image shift = {c.shift_x, c.shift_y};
-                for (std::uint32_t k = grid_.first(c.cell); k < grid_.first(c.cell + 1); ++k)
-                    if (const std::uint32_t j = grid_.numbers()[k]; !is_touched(j) && is_mine(j))
-                        consider(j, shift);
-                for (std::uint32_t t = first_touched_[static_cast<std::size_t>(c.cell)]; t != kNowhere;
-                     t = touched_[t].next_in_cell)
-                    if (is_mine(touched_[t].slot)) consider(touched_[t].slot, shift);
-            });
+        const Vec2 beside = {within_periods(grid.x, reach), within_periods(grid.y, reach)};
+        grid_.for_each_in(low - beside, high + beside, [&](const EmpiricalGrid::Near& c) {
+            const Image shift = {c.shift_x, c.shift_y};
+            for (std::uint32_t k = grid_.first(c.cell); k < grid_.first(c.cell + 1); ++k)
+                if (const std::uint32_t j = grid_.numbers()[k]; !is_touched(j) && is_mine(j))
+                    consider(j, shift);
+            for (std::uint32_t t = first_touched_[static_cast<std::size_t>(c.cell)]; t != kNowhere;
+                 t = touched_[t].next_in_cell)
+                if (is_mine(touched_[t].slot)) consider(touched_[t].slot, shift);
+        });
     }
     for (const std::uint32_t j : large_)
         if (!is_large || id_[j] < id_[slot])

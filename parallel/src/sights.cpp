@@ -3,7 +3,7 @@
 // With u = 2^-24, P the farthest place and flight in a span that are seen, all in cells: two places are
 // rounded by u P each and their difference by 2 u P, two velocities and their difference by as much, the
 // flight by 4 u P, their sum by 4 u P, and the nearest image by 4 u P. A component of the offset r of two
-// centres is so uncertain by less than 20 u P, and r by less than d = 2^-19 P; their velocity v by less than
+// centres is so uncertain by less than 25 u P, and r by less than d = 2^-19 P; their velocity v by less than
 // w = 2^-21 P.
 //
 // Let s be the sum of the radii, the margin m >= d / s, R^2 = r^2 + s^2 and U^2 = v^2 + (w / m)^2. Then d <=

@@ -32,6 +32,7 @@ class EventQueue {
     void put(std::uint32_t id, double key) { slots_[id] = {key, slots_[id].turn + 1}; }
     void rebuild() {
         year_length_ = 0;
+        year_start_ = std::numeric_limits<double>::infinity();  // there is no last year
         start_year();
     }
 
@@ -76,6 +77,10 @@ class EventQueue {
         return first.id;
     }
 
+    /// Years begun, each of which costs all entries, and entries held, those included that are stale.
+    [[nodiscard]] std::uint64_t years() const { return years_; }
+    [[nodiscard]] std::size_t entries() const { return entries_.size() + due_.size(); }
+
     /// Calls f(id) for every id whose key equals the least one. Costs their number.
     template <class F>
     void for_each_first(F&& f) {
@@ -107,14 +112,15 @@ class EventQueue {
     }
 
     void enter(std::uint32_t id, const Slot& slot) {
-        const double day = (slot.key - year_start_) * days_per_time_;
+        // Rounding may put what comes last beyond the year's end.
+        const double day = std::min((slot.key - year_start_) * days_per_time_, last_day_);
         if (!(day >= next_day_)) {
             due_.push_back({slot.key, id, slot.turn});
             std::push_heap(due_.begin(), due_.end());
             ++events_;
             return;
         }
-        std::int32_t& head = days_[static_cast<std::size_t>(std::min(day, last_day_))];
+        std::int32_t& head = days_[static_cast<std::size_t>(day)];
         if (free_ == kNone) {
             entries_.push_back({id, slot.turn, head});
             head = static_cast<std::int32_t>(entries_.size() - 1);
@@ -160,6 +166,7 @@ class EventQueue {
 
     /// Enters what comes next, from the least key on. False when nothing is to come.
     bool start_year() {
+        ++years_;
         entries_.clear();
         due_.clear();
         free_ = kNone;
@@ -171,8 +178,8 @@ class EventQueue {
             day_ = days_.size();
             return false;
         }
-        year_start_ = least;
         year_length_ = next_length(least);
+        year_start_ = least;
         events_ = 0;
         // Even where the length is less than an ulp of the start, the first entry is in the year.
         year_end_ =
@@ -187,12 +194,15 @@ class EventQueue {
         return true;
     }
 
-    /// How long a year from `start` on is: by the last one's events, or by a sample of the keys.
+    /// How long a year from `start` on is: by the last one's events, or by a sample of the keys; else as long
+    /// as to the last one's start, so that few keys among many bring few years.
     [[nodiscard]] double next_length(double start) const {
         const double wanted = static_cast<double>(days_.size());
         if (year_length_ > 0) {
             const double change = wanted / std::max(1.0, static_cast<double>(events_));
-            return year_length_ * std::clamp(change, 0.25, 4.0);
+            const double length = year_length_ * std::clamp(change, 0.25, 4.0);
+            // Where few entries are ever due, the time that the last year took in all is short enough.
+            return change > 4 ? std::max(length, start - year_start_) : length;
         }
         constexpr std::size_t kSample = 64;
         double sample[kSample];
@@ -200,9 +210,9 @@ class EventQueue {
         const std::size_t stride = std::max<std::size_t>(1, slots_.size() / kSample);
         for (std::size_t id = 0; id < slots_.size() && taken < kSample; id += stride)
             if (slots_[id].key < std::numeric_limits<double>::infinity()) sample[taken++] = slots_[id].key;
-        if (taken == 0) return 0;
         std::nth_element(sample, sample + taken / 2, sample + taken);
-        return sample[taken / 2] - start;
+        const double length = taken > 0 ? sample[taken / 2] - start : 0;
+        return length > 0 ? length : std::max(0.0, start - year_start_);
     }
 
     template <class F>
@@ -226,6 +236,7 @@ class EventQueue {
     double year_end_ = 0;
     double year_length_ = 0;
     double days_per_time_ = 0;
+    std::uint64_t years_ = 0;
 };
 
 }  // namespace carom

@@ -31,7 +31,7 @@ struct Kernel {
     std::array<Boundary, 2> boundary = {Boundary::kOpen, Boundary::kOpen};
     /// Whether vectors bound the times of impact of all candidates at once, so that few need the exact one.
     /// Not where accelerations differ from ball to ball, nor where rounding could outgrow the bounds' margin:
-    /// in a periodic box of fewer than six cells, or so large that coordinates lose too many digits.
+    /// in a periodic box of fewer than six cells, or one too wide for its smallest ball.
     bool bounds_on_vectors = false;
 };
 

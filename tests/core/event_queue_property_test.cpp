@@ -1,0 +1,210 @@
+// The queue of next events against a sorted set, on patterns of keys that are hard on a calendar.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <carom/core/event_queue.hpp>
+
+#include "core/random.hpp"
+
+namespace carom::test {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A queue and the set that says what it has to answer.
+class Checked {
+ public:
+    explicit Checked(std::uint32_t count) : queue(count) { restart(count); }
+
+    void restart(std::uint32_t count) {
+        keys_.assign(count, kInfinity);
+        order_.clear();
+    }
+    void remember(std::uint32_t id, double key) {
+        if (keys_[id] < kInfinity) order_.erase({keys_[id], id});
+        if (key < kInfinity) order_.insert({key, id});
+        keys_[id] = key;
+    }
+    void put(std::uint32_t id, double key) {
+        remember(id, key);
+        queue.put(id, key);
+    }
+    void set(std::uint32_t id, double key) {
+        remember(id, key);
+        queue.set(id, key);
+    }
+    [[nodiscard]] double least() const { return order_.empty() ? kInfinity : order_.begin()->first; }
+    [[nodiscard]] std::uint32_t first() const { return order_.begin()->second; }
+
+    /// Whether every answer is the set's.
+    void check() {
+        ASSERT_EQ(queue.first_key(), least());
+        if (order_.empty()) return;
+        bool may_be_tied = false;
+        ASSERT_EQ(keys_[queue.front(may_be_tied)], least());
+        ASSERT_EQ(queue.first(), first());
+        const auto second = std::next(order_.begin());
+        const bool is_tied = second != order_.end() && second->first == least();
+        ASSERT_TRUE(may_be_tied || !is_tied);
+        if (!is_tied) return;
+        std::set<std::uint32_t> told;
+        queue.for_each_first([&](std::uint32_t id) { ASSERT_TRUE(told.insert(id).second); });
+        std::uint32_t last = 0;
+        auto place = order_.begin();
+        for (const std::uint32_t id : told) {
+            ASSERT_TRUE(place != order_.end() && *place == std::pair(least(), id));
+            last = (place++)->second;
+        }
+        ASSERT_TRUE(place == order_.end() || place->first > least());
+        ASSERT_EQ(queue.first([](std::uint32_t id) { return ~id; }), last);  // ranks the other way round
+    }
+
+    EventQueue queue;
+
+ private:
+    std::vector<double> keys_;
+    std::set<std::pair<double, std::uint32_t>> order_;
+};
+
+/// What the first entry's key becomes, at a time `now` that is its old one.
+using Next = double (*)(Random& random, double now);
+
+/// As an engine does: the first entry and sometimes another one get new keys, none in the past.
+void run(std::uint32_t count, int changes, Next next) {
+    Random random(count);
+    Checked q(count);
+    for (std::uint32_t id = 0; id < count; ++id) q.put(id, next(random, 0));
+    q.queue.rebuild();
+    for (int k = 0; k < changes && q.least() < kInfinity; ++k) {
+        ASSERT_NO_FATAL_FAILURE(q.check()) << "change " << k << " of " << count;
+        const double now = q.least();
+        q.set(q.first(), next(random, now));
+        if (k % 3 == 0) q.set(static_cast<std::uint32_t>(random.uniform(0, 1) * count), next(random, now));
+    }
+}
+
+TEST(EventQueueAgainstASet, SteadyKeys) {
+    for (const std::uint32_t count : {1U, 2U, 5U, 64U, 1000U})
+        run(count, 20'000, [](Random& r, double now) { return now + r.uniform(0, 1); });
+}
+
+TEST(EventQueueAgainstASet, KeysThatAreAllEqual) {
+    for (const std::uint32_t count : {3U, 64U, 1000U})
+        run(count, 5'000, [](Random&, double now) { return std::floor(now) + 1; });
+}
+
+TEST(EventQueueAgainstASet, KeysThatRiseByOneUlp) {
+    for (const std::uint32_t count : {2U, 64U, 1000U})
+        run(count, 10'000, [](Random& r, double now) {
+            return now == 0 ? 1 : r.sign() > 0 ? now : std::nextafter(now, kInfinity);
+        });
+}
+
+// A thousand events within 10^-9 of a time, then nothing for a time 10^12 as long.
+TEST(EventQueueAgainstASet, Bursts) {
+    run(300, 20'000, [](Random& r, double now) {
+        return r.uniform(0, 1) < 1e-3 ? now + 1000 : now + 1e-12 * r.uniform(0, 1);
+    });
+}
+
+TEST(EventQueueAgainstASet, StepsOfAllSizes) {
+    for (const std::uint32_t count : {7U, 500U})
+        run(count, 20'000, [](Random& r, double now) { return now + r.decades(-30, 5); });
+}
+
+// Times at which doubles have run out of digits, and the largest of them.
+TEST(EventQueueAgainstASet, KeysAtTheEndsOfTheRange) {
+    run(100, 5'000, [](Random& r, double now) { return now + 1e-320 * r.uniform(0, 9); });
+    run(100, 5'000, [](Random& r, double) { return r.uniform(0, std::numeric_limits<double>::max()); });
+}
+
+TEST(EventQueueAgainstASet, KeysBelowThePresentDay) {
+    for (const std::uint32_t count : {10U, 400U}) {
+        Random random(count);
+        Checked q(count);
+        for (int k = 0; k < 20'000; ++k) {
+            q.set(static_cast<std::uint32_t>(random.uniform(0, count)),
+                  random.sign() * random.decades(-3, 3));
+            ASSERT_NO_FATAL_FAILURE(q.check());
+        }
+    }
+}
+
+TEST(EventQueueAgainstASet, UsedAgainWithAnotherCount) {
+    Checked q(1);
+    Random random(11);
+    for (const std::uint32_t count : {1000U, 3U, 1U, 64U, 5000U, 2U}) {
+        q.queue.reset(count);
+        q.restart(count);
+        for (std::uint32_t id = 0; id < count; id += 2) q.put(id, random.uniform(5, 6));
+        q.queue.rebuild();
+        for (int k = 0; k < 2000; ++k) {
+            ASSERT_NO_FATAL_FAILURE(q.check());
+            q.set(q.first(), q.least() + random.uniform(0, 0.01));
+        }
+    }
+}
+
+// The last key before a year's end, whose day rounds up to one beyond the year: 0 and a median that is the
+// year's length, then two ids with the largest key below it, the second set when the last day is at hand.
+TEST(EventQueueAgainstASet, ATieAtTheEndOfAYear) {
+    constexpr std::uint32_t kCount = 22;  // 11 days, no power of two
+    Random random(12);
+    int beyond = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+        const double end = random.uniform(1.5, 2);
+        const double last = std::nextafter(end, 0);
+        if (last * (kCount / 2 / end) >= kCount / 2) ++beyond;
+        Checked q(kCount);
+        for (std::uint32_t id = 0; id < kCount; ++id) q.put(id, id == 0 ? 0 : id == 7 ? last : end);
+        q.queue.rebuild();
+        q.check();
+        q.set(0, kInfinity);
+        q.check();  // now the last day is at hand
+        q.set(3, last);
+        ASSERT_NO_FATAL_FAILURE(q.check()) << "year of " << end;
+    }
+    EXPECT_GT(beyond, 0);  // else nothing was tried
+}
+
+// Three that move among 10^5 that rest, and one: a year costs all of them and must bring many events. The
+// first may bring one; from then on it is as long as the last step and grows fourfold each time that it
+// brings too few: past all 20,000 steps within log4(20,000) + 3 years, and twice as many where one was short.
+TEST(EventQueue, BeginsFewYearsWhereFewMove) {
+    for (const std::uint32_t movers : {1U, 3U}) {
+        constexpr std::uint32_t kCount = 100'000;
+        EventQueue queue(kCount);
+        for (std::uint32_t k = 0; k < movers; ++k) queue.put(1777 + 31'001 * k, 1 + 0.1 * k);
+        queue.rebuild();
+        const std::uint64_t before = queue.years();
+        Random random(movers);
+        for (int k = 0; k < 20'000; ++k) {
+            const std::uint32_t id = queue.first();
+            ASSERT_EQ(id % 31'001, 1777U);
+            queue.set(id, queue.first_key() + random.uniform(0, 1));
+        }
+        EXPECT_LT(queue.years() - before, 24U);
+    }
+}
+
+// Each keeps four entries an id at most before it begins anew, and 64; vectors double their room.
+TEST(EventQueue, StaysSmall) {
+    constexpr std::uint32_t kCount = 1000;
+    EventQueue queue(kCount);
+    Random random(13);
+    std::size_t most = 0;
+    for (int k = 0; k < 1'000'000; ++k) {
+        const auto id = static_cast<std::uint32_t>(random.uniform(0, kCount));
+        queue.set(id, queue.first_key() < kInfinity ? queue.first_key() + random.uniform(0, 1) : 1);
+        most = std::max(most, queue.entries());
+    }
+    EXPECT_LE(most, 2 * (4 * kCount + 64) + 2);
+}
+
+}  // namespace
+}  // namespace carom::test
