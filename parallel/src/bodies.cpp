@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace carom {
 
@@ -62,6 +64,14 @@ Bodies::Bodies(const Physics& scene_physics, std::span<const Ball> balls, std::s
 Vec2 Bodies::rounded_position(const Vec2& inside, Periods& away) const {
     return {rounded_to_float(grid.x.wrapped(rounded_to_float(inside.x()), away.x)),
             rounded_to_float(grid.y.wrapped(rounded_to_float(inside.y()), away.y))};
+}
+
+Vec2 Bodies::acceleration_at(std::uint32_t id, const Vec2& place) const {
+    const Vec2 a = physics.gravity + own_acceleration_of(id) + field_at(attractors, place);
+    if (!std::isfinite(length_squared(a)))
+        throw std::runtime_error("balls[" + std::to_string(id) +
+                                 "]: the attractors' pull on it is too large for a number");
+    return a;
 }
 
 void Bodies::choose_margins() {

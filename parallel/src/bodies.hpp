@@ -8,6 +8,7 @@
 
 #include <carom/broadphase/grid.hpp>
 #include <carom/broadphase/obstacles.hpp>
+#include <carom/core/response.hpp>
 #include <carom/parallel/kernel.hpp>
 
 #include "ball_record.hpp"
@@ -27,6 +28,22 @@ class Property {
  private:
     double one_ = 0;
     std::vector<double> each_;
+};
+
+/// How many periods the second of two bodies is moved by to be met by the first.
+struct Image {
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+    Image operator-() const { return {-x, -y}; }
+    Image operator+(const Image& o) const { return {x + o.x, y + o.y}; }
+    Image operator-(const Image& o) const { return {x - o.x, y - o.y}; }
+};
+
+/// A side of the domain, by its number: left, right, bottom, top.
+struct Side {
+    explicit Side(std::uint32_t number) : axis(static_cast<int>(number / 2)), upper(number % 2 == 1) {}
+    int axis;
+    bool upper;
 };
 
 struct Bodies {
@@ -58,6 +75,19 @@ struct Bodies {
     [[nodiscard]] Vec2 own_acceleration_of(std::uint32_t id) const {
         return own_acceleration.empty() ? Vec2(Vec2::Zero()) : own_acceleration[id];
     }
+    [[nodiscard]] Vec2 offset_of(const Image& image) const {
+        return {image.x * grid.x.length(), image.y * grid.y.length()};
+    }
+    /// The restitution of a ball with a body of any kind, by its number.
+    [[nodiscard]] double restitution_between(std::uint32_t id, std::uint32_t partner) const {
+        const double other = partner < count          ? restitution.of(partner)
+                             : partner < first_side() ? walls[partner - count].restitution
+                                                      : physics.domain.restitution;
+        return pair_restitution(physics.restitution_rule, restitution.of(id), other);
+    }
+    /// Gravity, the ball's own acceleration and the attractors' at a place. Throws std::runtime_error where
+    /// that is no number.
+    [[nodiscard]] Vec2 acceleration_at(std::uint32_t id, const Vec2& place) const;
     /// Whether accelerations differ from ball to ball.
     [[nodiscard]] bool accelerates_each() const { return !own_acceleration.empty() || !attractors.empty(); }
     /// The event loop's kind.

@@ -19,7 +19,7 @@ EmpiricalEngine::EmpiricalEngine(const Bodies& bodies, const EngineStart& start,
                                  bool count_missed)
     : Engine(bodies, start),
       executor_(executor),
-      steps_(*bodies.physics.empirical),
+      steps_(bodies.physics.empirical.value_or(EmpiricalSteps{})),
       clock_(bodies.physics.clock),
       counts_missed_(count_missed),
       grid_(bodies.grid) {
@@ -32,9 +32,7 @@ EmpiricalEngine::EmpiricalEngine(const Bodies& bodies, const EngineStart& start,
         vx_.push_back(record.anchor.vx);
         vy_.push_back(record.anchor.vy);
         periods_.push_back(record.periods);
-        const double radius = bodies.radius.of(record.id);
-        largest_radius_ = std::max(largest_radius_, radius);
-        if (!bodies.radius.is_one()) radius_.push_back(radius);
+        if (!bodies.radius.is_one()) radius_.push_back(bodies.radius.of(record.id));
         if (bodies.physics.contact_time > 0) last_collision_.push_back(BallExtra{}.last_collision);
         if (!bodies.large.empty())
             is_large_.push_back(std::ranges::binary_search(bodies.large, record.id) ? 1 : 0);
@@ -115,8 +113,9 @@ void EmpiricalEngine::step_to(const Time& end) {
     keep_lasting();
     settle_all();
     now_ = end;
-    if (step_count_++ % kStepsOfOrder == 0) reorder();
-    counts_.steps = step_count_;
+    const std::uint64_t steps = counts_.steps.value_or(0);
+    if (steps % kStepsOfOrder == 0) reorder();
+    counts_.steps = steps + 1;
     schedule();
 }
 
@@ -211,13 +210,8 @@ void EmpiricalEngine::reorder() {
 void EmpiricalEngine::renew_field(const Time& t) {
     if (size() == 0 || !bodies_.accelerates_each()) return;
     if (t != now_) throw std::logic_error("the field changes within a step");
-    for (std::uint32_t i = 0; i < size(); ++i) {
-        acceleration_[i] = bodies_.physics.gravity + bodies_.own_acceleration_of(id_[i]) +
-                           field_at(bodies_.attractors, {x_[i], y_[i]});
-        if (!std::isfinite(length_squared(acceleration_[i])))
-            throw std::runtime_error("balls[" + std::to_string(id_[i]) +
-                                     "]: the attractors' pull on it is too large for a number");
-    }
+    for (std::uint32_t i = 0; i < size(); ++i)
+        acceleration_[i] = bodies_.acceleration_at(id_[i], {x_[i], y_[i]});
     schedule();
 }
 

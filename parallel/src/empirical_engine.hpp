@@ -9,7 +9,7 @@
 // - A ball has at most kMostResponses responses in a step. What still overlaps at the end of a step is kept
 //   in `lasting_`, and responds at the start of the next where it approaches then; it loses no more.
 // - Positions are never corrected, only velocities: an elastic response cannot add energy. Scenes with losses
-//   pay for that with speeds of parting, see parting_speed() and recovery().
+//   pay for that with speeds of parting, see parting_speed_of() and recovery().
 //
 // Balls stand at slots, in the order of the cells every now and then; their ids decide every order that
 // shows. empirical_search.cpp finds the contacts, empirical_respond.cpp resolves them, empirical_missed.cpp
@@ -50,14 +50,6 @@ class EmpiricalEngine final : public Engine {
     static constexpr std::uint32_t kMostAmongBalls = 32;
     static constexpr std::uint32_t kMostResponses = 64;
 
-    /// Periods by which the second body is moved to be near the first.
-    struct Image {
-        std::int32_t x = 0;
-        std::int32_t y = 0;
-        Image operator-() const { return {-x, -y}; }
-        Image operator+(const Image& o) const { return {x + o.x, y + o.y}; }
-        Image operator-(const Image& o) const { return {x - o.x, y - o.y}; }
-    };
     /// A ball and what it meets: another ball at slot `other`, or an obstacle. Of two balls the first has the
     /// smaller id.
     struct Pair {
@@ -110,10 +102,6 @@ class EmpiricalEngine final : public Engine {
         std::uint64_t missed = 0;
         double shortest = 0;
     };
-    struct Side {
-        int axis;
-        bool upper;
-    };
 
     [[nodiscard]] std::size_t size() const { return id_.size(); }
     [[nodiscard]] double radius_of(std::uint32_t slot) const {
@@ -130,18 +118,13 @@ class EmpiricalEngine final : public Engine {
         if (slot == kNowhere || !is_touched(slot)) return 0;
         return touched_[touched_index_[slot]].responses;
     }
-    [[nodiscard]] Vec2 offset_of(const Image& image) const {
-        return {image.x * bodies_.grid.x.length(), image.y * bodies_.grid.y.length()};
-    }
+    [[nodiscard]] Vec2 offset_of(const Image& image) const { return bodies_.offset_of(image); }
     [[nodiscard]] Image turns_of(std::uint32_t slot) const {
         return turns_.empty() ? Image{} : Image{turns_[slot].x, turns_[slot].y};
     }
     [[nodiscard]] Vec2 wrapped_end(std::uint32_t slot) const { return {wrapped_x_[slot], wrapped_y_[slot]}; }
     /// The last leg's motion from `time` >= its start on.
     [[nodiscard]] Motion<double> motion_from(std::uint32_t slot, double time) const;
-    [[nodiscard]] static Side side_of(std::uint32_t index) {
-        return {static_cast<int>(index / 2), index % 2 == 1};
-    }
     [[nodiscard]] Pair pair_of(std::uint32_t a, std::uint32_t b, const Image& image) const;
     /// Runs body(part, first, last) over [0, count), cut the same way whatever the number of threads.
     template <class Body>
@@ -192,7 +175,7 @@ class EmpiricalEngine final : public Engine {
     [[nodiscard]] double restitution_at(double restitution, const Pair& pair, double gap,
                                         const Time& t) const;
     [[nodiscard]] double recovery(double gap, std::uint32_t slot) const;
-    [[nodiscard]] double parting_speed(double pressure, const Vec2& line) const;
+    [[nodiscard]] double parting_speed_of(double pressure, const Vec2& line) const;
 
     // empirical_missed.cpp
     void count_missed();
@@ -247,9 +230,6 @@ class EmpiricalEngine final : public Engine {
     Time next_ = kNever;  // and of the next, but for the horizon
     double step_index_ = 0;
     double duration_ = 0;  // of the present step
-    double largest_radius_ = 0;
-    std::uint64_t step_count_ = 0;
-    std::uint64_t missed_ = 0;
 };
 
 template <class Body>

@@ -36,7 +36,7 @@ class CellAxis {
     /// A cell by its unfolded coordinate.
     [[nodiscard]] Seen seen(std::int32_t k) const {
         const std::int32_t cell = fold(k);
-        return {cell, axis_.periodic() ? (k - cell) / count_ : 0};
+        return {cell, axis_.turns(k)};
     }
     struct Range {
         std::int32_t first, last;

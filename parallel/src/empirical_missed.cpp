@@ -77,8 +77,9 @@ void EmpiricalEngine::count_missed() {
     for_parts(size(), kSlotsOfPart, [this](Part& part, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) count_missed_of(static_cast<std::uint32_t>(i), part);
     });
-    for (std::size_t p = 0; p < (size() + kSlotsOfPart - 1) / kSlotsOfPart; ++p) missed_ += parts_[p].missed;
-    counts_.missed_collisions = missed_;
+    std::uint64_t missed = counts_.missed_collisions.value_or(0);
+    for (std::size_t p = 0; p < (size() + kSlotsOfPart - 1) / kSlotsOfPart; ++p) missed += parts_[p].missed;
+    counts_.missed_collisions = missed;
 }
 
 void EmpiricalEngine::count_missed_of(std::uint32_t slot, Part& part) const {

@@ -125,11 +125,10 @@ double EmpiricalEngine::restitution_at(double restitution, const Pair& pair, dou
 
 /// The speed at which a contact pressed together must part to stay open for the rest time; in a scene with
 /// losses for a step at least, lest what lies at rest falls into its floor in the rest of each step.
-double EmpiricalEngine::parting_speed(double pressure, const Vec2& line) const {
-    if (!(pressure > 0)) return 0;
+double EmpiricalEngine::parting_speed_of(double pressure, const Vec2& line) const {
     const Physics& physics = bodies_.physics;
     const double rest = physics.loses_energy ? std::max(physics.rest_time, duration_) : physics.rest_time;
-    return pressure / std::sqrt(length_squared(line)) * rest / 2;
+    return parting_speed(pressure, line, rest);
 }
 
 /// The speed at which two bodies that a step has left overlapping part at least, in a scene with losses: half
@@ -150,9 +149,7 @@ void EmpiricalEngine::respond_ball(const Meeting& meeting) {
     const Touch contact = touch(meeting.pair, {x_[i], y_[i]}, {x_[j], y_[j]});
     const Vec2& line = contact.line;
     const double restitution =
-        restitution_at(pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(id_[i]),
-                                        bodies_.restitution.of(id_[j])),
-                       meeting.pair, contact.gap, time);
+        restitution_at(bodies_.restitution_between(id_[i], id_[j]), meeting.pair, contact.gap, time);
     double pressure = 0;
     if (!acceleration_.empty())
         pressure =
@@ -160,7 +157,7 @@ void EmpiricalEngine::respond_ball(const Meeting& meeting) {
     double impulse = 0;
     const PairVelocities<double> after =
         collide(va, vb, line, bodies_.mass.of(id_[i]), bodies_.mass.of(id_[j]), restitution,
-                std::max(parting_speed(pressure, line), recovery(contact.gap, i)), &impulse,
+                std::max(parting_speed_of(pressure, line), recovery(contact.gap, i)), &impulse,
                 [this](const Vec2& v) { return bodies_.held_velocity(v); });
     vx_[i] = after.a.x();
     vy_[i] = after.a.y();
@@ -180,13 +177,7 @@ void EmpiricalEngine::respond_obstacle(const Meeting& meeting) {
     const Touch contact = touch(meeting.pair, centre, centre);
     const Vec2& line = contact.line;
     const bool is_ball = partner < bodies_.count;
-    double restitution = bodies_.physics.domain.restitution;
-    if (is_ball)
-        restitution = bodies_.restitution.of(partner);
-    else if (partner < bodies_.first_side())
-        restitution = bodies_.walls[partner - bodies_.count].restitution;
-    restitution =
-        pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(id_[i]), restitution);
+    const double restitution = bodies_.restitution_between(id_[i], partner);
     const double lasting = restitution_at(restitution, meeting.pair, contact.gap, time);
     const Vec2 acceleration = acceleration_of(i);
     double pressure = 0;
@@ -195,7 +186,7 @@ void EmpiricalEngine::respond_obstacle(const Meeting& meeting) {
     const bool is_paid = lasting != restitution || contact.gap < -steps_.tolerance;
     const double factor = is_paid ? 1 : bodies_.physics.speed_factor;
     const Vec2 after = bounce<double>(
-        before, line, lasting, std::max(parting_speed(pressure, line), recovery(contact.gap, i)) / factor,
+        before, line, lasting, std::max(parting_speed_of(pressure, line), recovery(contact.gap, i)) / factor,
         [&](const Vec2& v) { return bodies_.held_velocity(v * factor); });
     vx_[i] = after.x();
     vy_[i] = after.y();
@@ -210,22 +201,14 @@ void EmpiricalEngine::respond_obstacle(const Meeting& meeting) {
 void EmpiricalEngine::tell(const Meeting& meeting, const Vec2& normal, double impulse, double virial) {
     const std::uint32_t i = meeting.pair.slot;
     const std::uint32_t partner = meeting.pair.partner;
-    const bool is_wall = partner >= bodies_.count;
     CollisionNote note;
-    note.is_wall = is_wall;
+    note.is_wall = partner >= bodies_.count;
     note.virial = virial;
     count(note);
     ++counts_.events;
     if (!listener_) return;
-    const Vec2 point = Vec2(x_[i], y_[i]) - radius_of(i) * normal;
-    std::int32_t ignored = 0;
-    listener_({clock_.to_seconds(clock_.after(now_, meeting.time)),
-               is_wall ? CollisionKind::kWall : CollisionKind::kBall,
-               id_[i],
-               is_wall ? partner - bodies_.count : partner,
-               {bodies_.grid.x.wrapped(point.x(), ignored), bodies_.grid.y.wrapped(point.y(), ignored)},
-               normal,
-               impulse});
+    listener_(collision_of(bodies_, clock_.to_seconds(clock_.after(now_, meeting.time)), id_[i], partner,
+                           {x_[i], y_[i]}, normal, impulse));
 }
 
 }  // namespace carom

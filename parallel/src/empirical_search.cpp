@@ -25,7 +25,7 @@ template <class Gap, class Rate>
 Contact trace_back(double duration, double tolerance, Gap&& gap, Rate&& rate) {
     const std::optional<double> free = detail::bisect_contact<double>(duration, tolerance, gap);
     if (!free) return {};
-    if (rate(*free) < 0) return {true, *free};
+    if (rate(*free) < 0) return {true, free};
     if (!(rate(duration) < 0)) return {true, std::nullopt};
     double parting = *free;
     double turned = duration;
@@ -76,7 +76,7 @@ EmpiricalEngine::Touch EmpiricalEngine::touch(const Pair& pair, const Vec2& cent
         return {distance - radius, contact_normal<double>(near, feature, wall.from, wall.to),
                 feature != WallFeature::kFace, feature};
     }
-    const Side side = side_of(pair.partner - bodies_.first_side());
+    const Side side(pair.partner - bodies_.first_side());
     const Box& box = bodies_.physics.domain.box;
     Vec2 line = Vec2::Zero();
     line[side.axis] = side.upper ? -1 : 1;
@@ -210,9 +210,6 @@ void EmpiricalEngine::collect_obstacles(std::uint32_t slot, const Vec2& low, con
         // On an axis without period the fold meets every storage cell once in `count` steps.
         return axis.periodic() ? last : std::min(last, first + axis.count() - 1);
     };
-    const auto turns = [](const GridAxis& axis, std::int32_t k) {
-        return axis.periodic() ? (k - axis.fold(k)) / axis.count() : 0;
-    };
     const CellCoordinates first = grid.coordinates(low);
     const CellCoordinates last = {last_of(grid.x, first.x, high.x()), last_of(grid.y, first.y, high.y())};
     for (std::int32_t y = first.y; y <= last.y; ++y)
@@ -221,7 +218,7 @@ void EmpiricalEngine::collect_obstacles(std::uint32_t slot, const Vec2& low, con
                 found.push_back({slot,
                                  kNowhere,
                                  entry.id,
-                                 {turns(grid.x, x) + entry.shift_x, turns(grid.y, y) + entry.shift_y}});
+                                 {grid.x.turns(x) + entry.shift_x, grid.y.turns(y) + entry.shift_y}});
     if (first == last) return;
     const auto key = [](const Pair& p) { return std::tuple(p.partner, p.image.x, p.image.y); };
     std::ranges::sort(found, {}, key);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace carom {
 namespace {
@@ -92,14 +91,14 @@ void Engine::count(const CollisionNote& note) {
     }
 }
 
-std::unique_ptr<Engine> make_engine(const Bodies& bodies, EngineStart start, const Executor& executor,
+std::unique_ptr<Engine> make_engine(const Bodies& bodies, const EngineStart& start, const Executor& executor,
                                     const WorldOptions& options) {
     if (bodies.physics.empirical) return make_empirical_engine(bodies, start, executor, options.count_missed);
     const int domains = choose_domains(bodies, executor, options.domains);
     if (domains <= 1) return std::make_unique<SerialEngine>(bodies, start, executor);
     // A halo as wide as the plane holds all there is.
     const int halo = std::min(options.halo, std::max(bodies.grid.x.count(), bodies.grid.y.count()));
-    return make_windowed_engine(bodies, std::move(start), executor, domains, halo);
+    return make_windowed_engine(bodies, start, executor, domains, halo);
 }
 
 }  // namespace carom

@@ -51,10 +51,10 @@ class Engine {
 };
 
 /// `bodies` and `executor` must outlive the engine. `domains` 0 lets the engine choose.
-[[nodiscard]] std::unique_ptr<Engine> make_engine(const Bodies& bodies, EngineStart start,
+[[nodiscard]] std::unique_ptr<Engine> make_engine(const Bodies& bodies, const EngineStart& start,
                                                   const Executor& executor, const WorldOptions& options);
 
-[[nodiscard]] std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, EngineStart start,
+[[nodiscard]] std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, const EngineStart& start,
                                                            const Executor& executor, int domains, int halo);
 
 [[nodiscard]] std::unique_ptr<Engine> make_empirical_engine(const Bodies& bodies, const EngineStart& start,

@@ -18,10 +18,9 @@ void EventLoop::clear(const Region& region, const Time& now) {
     cells_.reset(static_cast<std::size_t>(region.size()));
     sights_.clear(bodies_, region);
     is_inside_.assign(static_cast<std::size_t>(region.size()), 0);
-    const std::int32_t row = region.x.size();
-    for (std::int32_t y = 1; y < region.y.size() - 1; ++y)
-        std::fill(is_inside_.begin() + y * row + 1,
-                  is_inside_.begin() + std::max(y * row + 1, (y + 1) * row - 1), 1);
+    const std::ptrdiff_t row = region.x.size();
+    for (std::ptrdiff_t y = 1; y < region.y.size() - 1; ++y)
+        std::fill_n(is_inside_.begin() + y * row + 1, std::max<std::ptrdiff_t>(row - 2, 0), std::uint8_t{1});
     epoch_ = now.epoch;
     now_ = now.offset;
     simultaneous_ = failed_ = false;
@@ -44,11 +43,6 @@ void EventLoop::clear(const Region& region, const Time& now) {
     for (const std::int32_t y : own_marks(region.y))
         for (const std::int32_t x : columns)
             touched[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1;
-}
-
-void EventLoop::reserve(std::size_t balls) {
-    records_.reserve(balls);
-    locals_.reserve(balls);
 }
 
 void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end) {
@@ -119,11 +113,8 @@ void EventLoopOf<A>::renew_field(const Time& t) {
             advance(i, t);
             settle(i);
             events += locals_[i].owned;
-            acceleration_[i] = bodies_.physics.gravity + bodies_.own_acceleration_of(records_[i].id) +
-                               field_at(bodies_.attractors, {records_[i].anchor.x, records_[i].anchor.y});
-            if (!std::isfinite(length_squared(acceleration_[i])))
-                throw std::runtime_error("balls[" + std::to_string(records_[i].id) +
-                                         "]: the attractors' pull on it is too large for a number");
+            acceleration_[i] =
+                bodies_.acceleration_at(records_[i].id, {records_[i].anchor.x, records_[i].anchor.y});
         }
     }
 }
@@ -159,6 +150,20 @@ std::unique_ptr<EventLoop> make_event_loop(const Bodies& bodies) {
             break;
     }
     return std::make_unique<EventLoopOf<Acceleration::kNone>>(bodies);
+}
+
+Collision collision_of(const Bodies& bodies, double seconds, std::uint32_t id, std::uint32_t partner,
+                       const Vec2& centre, const Vec2& normal, double impulse) {
+    const Vec2 point = centre - bodies.radius.of(id) * normal;
+    const bool is_wall = partner >= bodies.count;
+    std::int32_t ignored = 0;
+    return {seconds,
+            is_wall ? CollisionKind::kWall : CollisionKind::kBall,
+            id,
+            is_wall ? partner - bodies.count : partner,
+            {bodies.grid.x.wrapped(point.x(), ignored), bodies.grid.y.wrapped(point.y(), ignored)},
+            normal,
+            impulse};
 }
 
 BallState state_at(const Bodies& bodies, const Anchor& anchor, const Periods& periods,

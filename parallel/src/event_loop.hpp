@@ -49,6 +49,12 @@ struct CollisionNote {
     double virial = 0;
 };
 
+/// A collision as listeners are told of it. `centre` is ball `id`'s, `normal` the unit vector towards it,
+/// `partner` the other body's number.
+[[nodiscard]] Collision collision_of(const Bodies& bodies, double seconds, std::uint32_t id,
+                                     std::uint32_t partner, const Vec2& centre, const Vec2& normal,
+                                     double impulse);
+
 /// What an event has overwritten of an anchor, and the index of what was before it. One cache line.
 struct OverwrittenAnchor {
     double x, y, vx, vy;
@@ -71,8 +77,6 @@ class EventLoop {
     // ---- Filling: clear(), add() for every ball, then start() or predict_all().
     /// Empties the loop for a region. `now` is the time up to which the balls have been advanced.
     void clear(const Region& region, const Time& now);
-    /// Makes room for so many balls.
-    void reserve(std::size_t balls);
     /// Adds a ball whose cell lies in the region, `crossing_time` since the epoch of `now`. A copy is
     /// simulated until `end`.
     void add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end = kNever);

@@ -269,15 +269,13 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     const Vec2 va = {a.vx, a.vy};
     const Vec2 vb = {b.vx, b.vy};
     const Vec2 r = centres_offset(i, j, image);
-    const double restitution = restitution_at(
-        pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(records_[i].id),
-                         bodies_.restitution.of(records_[j].id)),
-        i, j, t);
+    const double restitution =
+        restitution_at(bodies_.restitution_between(records_[i].id, records_[j].id), i, j, t);
     // NOLINTNEXTLINE(misc-const-correctness): not where there is an acceleration
     double pressure = 0;  // -f'' / 2 of the squared distance f: positive where the pair is pressed together
     if constexpr (A == Acceleration::kPerBall)
         pressure = -(length_squared<double>(va - vb) + dot<double>(r, acceleration_[i] - acceleration_[j]));
-    const double separation = parting_speed(pressure, r);
+    const double separation = parting_speed(pressure, r, bodies_.physics.rest_time);
     double impulse = 0;  // along the unit normal
     const PairVelocities<double> after =
         collide(va, vb, r, bodies_.mass.of(records_[i].id), bodies_.mass.of(records_[j].id), restitution,
@@ -290,8 +288,7 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     remember(j, t, records_[i].id);
     const double distance = std::sqrt(length_squared(r));
     ++collisions_of_all;
-    if (is_owned(i))
-        note(t, CollisionKind::kBall, i, records_[j].id, b.stamp, r / distance, impulse, impulse * distance);
+    if (is_owned(i)) note(t, i, records_[j].id, b.stamp, r / distance, impulse, impulse * distance);
     if (bodies_.physics.contact_time > 0) last_collision_[i] = last_collision_[j] = t;
     settle(i);
     settle(j);
@@ -312,7 +309,6 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     Anchor& a = records_[i].anchor;
     const bool is_ball = event.partner < bodies_.count;
     Vec2 normal;  // from the obstacle to the ball, of any length
-    double restitution = bodies_.physics.domain.restitution;
     if (is_ball) {
         const Vec2 centre = {a.x, a.y};
         const Vec2& fixed = bodies_.fixed[event.partner];
@@ -320,19 +316,16 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
             normal = -(fixed - centre - offset_of(-image));
         else
             normal = centre - fixed - offset_of(image);
-        restitution = bodies_.restitution.of(event.partner);
     } else if (event.partner < bodies_.first_side()) {
         const Wall& wall = bodies_.walls[event.partner - bodies_.count];
         const Vec2 centre = Vec2(a.x, a.y) - offset_of(image);
         normal = contact_normal<double>(centre, static_cast<WallFeature>(event.stamp), wall.from, wall.to);
-        restitution = wall.restitution;
     } else {
-        const Side side = side_of(event.partner - bodies_.first_side());
+        const Side side(event.partner - bodies_.first_side());
         normal = Vec2::Zero();
         normal[side.axis] = side.upper ? -1 : 1;
     }
-    restitution = pair_restitution(bodies_.physics.restitution_rule, bodies_.restitution.of(records_[i].id),
-                                   restitution);
+    const double restitution = bodies_.restitution_between(records_[i].id, event.partner);
     const double lasting = restitution_at(restitution, i, i, event.time);
     const Vec2 before = {a.vx, a.vy};
     const double length = std::sqrt(length_squared(normal));
@@ -343,7 +336,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
                                           static_cast<WallFeature>(event.stamp) != WallFeature::kFace);
         pressure = -(dot(normal, acceleration_of(i)) + (is_round ? length_squared(before) : 0.0));
     }
-    const double separation = parting_speed(pressure, normal);
+    const double separation = parting_speed(pressure, normal, bodies_.physics.rest_time);
     const double factor =
         bodies_.physics.contact_time > 0 && lasting != restitution ? 1 : bodies_.physics.speed_factor;
     const Vec2 after = bounce<double>(before, normal, lasting, separation / factor,
@@ -354,8 +347,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     const double impulse = bodies_.mass.of(records_[i].id) * dot<double>(after - before, normal) / length;
     ++collisions_of_all;
     if (is_owned(i))
-        note(event.time, is_ball ? CollisionKind::kBall : CollisionKind::kWall, i, event.partner, 0,
-             normal / length, impulse, is_ball ? impulse * length : 0.0);
+        note(event.time, i, event.partner, 0, normal / length, impulse, is_ball ? impulse * length : 0.0);
     if (bodies_.physics.contact_time > 0) last_collision_[i] = event.time;
     settle(i);
     predict_crossing(i);
@@ -379,27 +371,19 @@ void EventLoopOf<A>::remember(std::uint32_t i, const Time& t, std::uint32_t part
 }
 
 template <Acceleration A>
-void EventLoopOf<A>::note(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t partner,
-                          std::uint32_t partner_stamp, const Vec2& normal, double impulse, double virial) {
+void EventLoopOf<A>::note(const Time& t, std::uint32_t i, std::uint32_t partner, std::uint32_t partner_stamp,
+                          const Vec2& normal, double impulse, double virial) {
     CollisionNote& n = notes.emplace_back();
     n.time = t;
     n.lower = records_[i].id;
     n.higher = partner;
     n.lower_stamp = records_[i].anchor.stamp;
     n.higher_stamp = partner_stamp;
-    n.is_wall = kind == CollisionKind::kWall;
+    n.is_wall = partner >= bodies_.count;
     n.virial = virial;
     if (listens) {
-        const Vec2 point = Vec2(records_[i].anchor.x, records_[i].anchor.y) - radius_of(i) * normal;
-        std::int32_t ignored = 0;
-        collisions.push_back(
-            {clock_.to_seconds(t),
-             kind,
-             records_[i].id,
-             kind == CollisionKind::kWall ? partner - bodies_.count : partner,
-             {bodies_.grid.x.wrapped(point.x(), ignored), bodies_.grid.y.wrapped(point.y(), ignored)},
-             normal,
-             impulse});
+        collisions.push_back(collision_of(bodies_, clock_.to_seconds(t), records_[i].id, partner,
+                                          {records_[i].anchor.x, records_[i].anchor.y}, normal, impulse));
     }
     constexpr std::size_t kBatch = 1024;
     if (!keeps_notes && notes.size() >= kBatch) pass_on_notes();

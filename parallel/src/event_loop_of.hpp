@@ -26,17 +26,6 @@ class EventLoopOf final : public EventLoop {
     void audit(std::vector<Violation>& found) const override;
 
  private:
-    /// Periods between the frames of a ball and its partner.
-    struct Image {
-        std::int32_t x = 0;
-        std::int32_t y = 0;
-        Image operator-() const { return {-x, -y}; }
-    };
-    struct Side {
-        int axis;
-        bool upper;
-    };
-
     [[nodiscard]] Vec2 acceleration_of(std::uint32_t i) const {
         if constexpr (kAcceleration == Acceleration::kNone) return Vec2::Zero();
         if constexpr (kAcceleration == Acceleration::kUniform) return bodies_.physics.gravity;
@@ -46,17 +35,12 @@ class EventLoopOf final : public EventLoop {
         const Anchor& a = records_[i].anchor;
         return {{a.x, a.y}, {a.vx, a.vy}, acceleration_of(i)};
     }
-    [[nodiscard]] Vec2 offset_of(const Image& image) const {
-        return {image.x * bodies_.grid.x.length(), image.y * bodies_.grid.y.length()};
-    }
+    [[nodiscard]] Vec2 offset_of(const Image& image) const { return bodies_.offset_of(image); }
     /// A side of the domain as a half-plane: how far ball i is inside, and the motion of that gap.
     struct Gap {
         double distance, speed, acceleration;
     };
     [[nodiscard]] Gap gap_to_side(std::uint32_t i, Side side) const;
-    [[nodiscard]] static Side side_of(std::uint32_t index) {
-        return {static_cast<int>(index / 2), index % 2 == 1};
-    }
 
     // Prediction: pure functions of the anchors.
     [[nodiscard]] Time predict_pair(std::uint32_t i, std::uint32_t j, Image image) const;
@@ -86,8 +70,7 @@ class EventLoopOf final : public EventLoop {
                                                                              std::int32_t offset,
                                                                              std::int32_t reach) {
         if (!axis.periodic()) return std::abs(offset) <= reach ? std::pair(0, 0) : std::pair(1, 0);
-        const auto floor_divided = [&axis](std::int32_t k) { return (k - axis.fold(k)) / axis.count(); };
-        return {-floor_divided(reach - offset), floor_divided(offset + reach)};
+        return {-axis.turns(reach - offset), axis.turns(offset + reach)};
     }
     void consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) const;
     void consider_in_cell(std::uint32_t i, std::uint32_t j, CellCoordinates cell, NextEvent& best) const;
@@ -96,7 +79,8 @@ class EventLoopOf final : public EventLoop {
     void scan_large(std::uint32_t i, NextEvent& best) const;
     void scan_listed(std::uint32_t i, NextEvent& best) const;
     void scan_beside(std::uint32_t i, CellCoordinates side, NextEvent& best) const;
-    static constexpr std::size_t kMostCandidates = 9 * CellLists::kBlockSize;  // that are looked at together
+    static constexpr std::size_t kMostCandidates =
+        std::size_t{9} * CellLists::kBlockSize;  // that are looked at together
     struct Candidates {
         std::size_t count = 0;
         CellCoordinates reach{1, 1};  // how many cells away they may be
@@ -149,16 +133,10 @@ class EventLoopOf final : public EventLoop {
     void settle(std::uint32_t i);
     [[nodiscard]] Vec2 centres_offset(std::uint32_t i, std::uint32_t j, Image image) const;
     [[nodiscard]] Time time_now() const { return clock_.after({epoch_, 0}, now_); }
-    /// The speed at which a contact pressed together must part to stay open for the rest time; `line` is its
-    /// centre line or normal.
-    [[nodiscard]] double parting_speed(double pressure, const Vec2& line) const {
-        return pressure > 0 ? pressure / std::sqrt(length_squared(line)) * bodies_.physics.rest_time / 2
-                            : 0.0;
-    }
     [[nodiscard]] double restitution_at(double restitution, std::uint32_t i, std::uint32_t j,
                                         const Time& t) const;
-    void note(const Time& t, CollisionKind kind, std::uint32_t i, std::uint32_t partner,
-              std::uint32_t partner_stamp, const Vec2& normal, double impulse, double virial);
+    void note(const Time& t, std::uint32_t i, std::uint32_t partner, std::uint32_t partner_stamp,
+              const Vec2& normal, double impulse, double virial);
     void remember(std::uint32_t i, const Time& t, std::uint32_t partner);
 };
 

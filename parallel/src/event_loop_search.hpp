@@ -94,7 +94,7 @@ auto EventLoopOf<A>::gap_to_side(std::uint32_t i, Side side) const -> Gap {
 
 template <Acceleration A>
 NextEvent EventLoopOf<A>::predict_side(std::uint32_t i, std::uint32_t side) const {
-    const Gap gap = gap_to_side(i, side_of(side));
+    const Gap gap = gap_to_side(i, Side(side));
     return {
         clock_.after(records_[i].anchor.time, side_time_of_impact(gap.distance, gap.speed, gap.acceleration)),
         bodies_.first_side() + side,
@@ -200,13 +200,10 @@ void EventLoopOf<A>::scan_each_obstacle(std::uint32_t i, NextEvent& best) const 
     const bool large = is_large(i);
     const ObstacleMap& obstacles = large ? bodies_.obstacles_of_large : bodies_.obstacles;
     if (!obstacles.empty()) {
-        const auto turns = [](const GridAxis& axis, std::int32_t k) {
-            return axis.periodic() ? (k - axis.fold(k)) / axis.count() : 0;
-        };
         for (const ObstacleEntry& entry : obstacles.at(grid.index(a.cell)))
             consider(predict_obstacle(
                 i, entry.id,
-                {turns(grid.x, a.cell.x) + entry.shift_x, turns(grid.y, a.cell.y) + entry.shift_y}));
+                {grid.x.turns(a.cell.x) + entry.shift_x, grid.y.turns(a.cell.y) + entry.shift_y}));
     }
     const std::array<Boundary, 2>& boundary = bodies_.physics.domain.boundary;
     if (boundary[0] == Boundary::kWall) {

@@ -25,8 +25,10 @@ using FourFloats __attribute__((vector_size(4 * sizeof(float)))) = float;
 #ifdef __AVX__
     return static_cast<unsigned>(_mm256_movemask_ps(std::bit_cast<__m256>(masks)));
 #else
+    std::int32_t lanes[kLanes];  // GCC 12's bounds check goes astray in a vector that is passed by reference
+    std::memcpy(lanes, &masks, sizeof(lanes));
     unsigned bits = 0;
-    for (std::size_t k = 0; k < kLanes; ++k) bits |= (masks[k] != 0 ? 1U : 0U) << k;
+    for (std::size_t k = 0; k < kLanes; ++k) bits |= (lanes[k] != 0 ? 1U : 0U) << k;
     return bits;
 #endif
 }
@@ -35,8 +37,11 @@ using FourFloats __attribute__((vector_size(4 * sizeof(float)))) = float;
 #ifdef __AVX__
     return std::bit_cast<Floats>(_mm256_sqrt_ps(std::bit_cast<__m256>(x)));
 #else
-    Floats root = x;
-    for (std::size_t k = 0; k < kLanes; ++k) root[k] = std::sqrt(x[k]);
+    float lanes[kLanes];
+    std::memcpy(lanes, &x, sizeof(lanes));
+    for (float& lane : lanes) lane = std::sqrt(lane);
+    Floats root;
+    std::memcpy(&root, lanes, sizeof(root));
     return root;
 #endif
 }

@@ -1,6 +1,7 @@
 // The numbers of a scene that every event needs, and the scales derived from it.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -36,6 +37,12 @@ struct Physics {
 
 /// The scene's numbers and scales. `balls` are all balls, fills included, at time 0.
 [[nodiscard]] Physics derive_physics(const Scene& scene, std::span<const Ball> balls);
+
+/// The speed at which a contact pressed together must part to stay open for `rest_time`; `line` is its centre
+/// line or normal, of any length.
+[[nodiscard]] inline double parting_speed(double pressure, const Vec2& line, double rest_time) {
+    return pressure > 0 ? pressure / std::sqrt(length_squared(line)) * rest_time / 2 : 0.0;
+}
 
 /// The acceleration that the attractors give a ball at p.
 [[nodiscard]] Vec2 field_at(std::span<const Attractor> attractors, const Vec2& p);

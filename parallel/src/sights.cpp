@@ -1,10 +1,10 @@
 // The bounds on when balls meet, and their margins.
 //
-// With u = 2^-24, P the farthest place and flight in a span that are seen, all in cells: two places are
-// rounded by u P each and their difference by 2 u P, two velocities and their difference by as much, the
-// flight by 4 u P, their sum by 4 u P, and the nearest image by 4 u P. A component of the offset r of two
-// centres is so uncertain by less than 25 u P, and r by less than d = 2^-19 P; their velocity v by less than
-// w = 2^-21 P.
+// With u = 2^-24, P the farthest place and flight in a span that are seen, all in cells: two places and
+// their difference are rounded by 4 u P together, two velocities and their difference by as much, the flight
+// that follows by 9 u P, their sum by 4 u P, and the nearest image by 8 u P. A component of the offset r of
+// two centres is so uncertain by 25 u P, and r by less than d = 2^-19 P = 32 u P, for |x| + |y| <= P bounds
+// both components together; their velocity v by less than w = 2^-21 P.
 //
 // Let s be the sum of the radii, the margin m >= d / s, R^2 = r^2 + s^2 and U^2 = v^2 + (w / m)^2. Then d <=
 // m R and w <= m U, and r . v and r x v are uncertain by less than 3 m R U, the gap r^2 - s^2 by 3 m R^2, and
@@ -69,8 +69,11 @@ Floats Sights::bounds(std::uint32_t i, const std::uint32_t* others, double now) 
     for (std::size_t k = 0; k < kLanes; ++k) std::memcpy(&rows[k], &rows_[each[k]], sizeof(Row));
     const Columns other = columns_of(rows);
     Floats sum = zero + diameter_;
-    if (!has_one_radius_)
-        for (std::size_t k = 0; k < kLanes; ++k) sum[k] = radius_[i] + radius_[others[k]];
+    if (!has_one_radius_) {
+        float sums[kLanes];
+        for (std::size_t k = 0; k < kLanes; ++k) sums[k] = radius_[i] + radius_[others[k]];
+        std::memcpy(&sum, sums, sizeof(sum));
+    }
 
     const Floats vx = own.vx - other.vx;
     const Floats vy = own.vy - other.vy;

@@ -27,8 +27,8 @@ constexpr int kWindowsBetweenSplits = 16;
 
 }  // namespace
 
-WindowedEngine::WindowedEngine(const Bodies& bodies, EngineStart start, const Executor& executor, int domains,
-                               int halo)
+WindowedEngine::WindowedEngine(const Bodies& bodies, const EngineStart& start, const Executor& executor,
+                               int domains, int halo)
     : Engine(bodies, start),
       executor_(executor),
       wanted_domains_(domains),
@@ -203,9 +203,9 @@ void WindowedEngine::tune(double length, bool agreed) {
     window_length_ = std::max(least, std::clamp(wanted, length / 2, std::max(2 * length, window_length_)));
 }
 
-std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, EngineStart start,
+std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, const EngineStart& start,
                                              const Executor& executor, int domains, int halo) {
-    return std::make_unique<WindowedEngine>(bodies, std::move(start), executor, domains, halo);
+    return std::make_unique<WindowedEngine>(bodies, start, executor, domains, halo);
 }
 
 }  // namespace carom

@@ -32,7 +32,8 @@ inline constexpr int kMostRepairs = 2;
 
 class WindowedEngine final : public Engine {
  public:
-    WindowedEngine(const Bodies& bodies, EngineStart start, const Executor& executor, int domains, int halo);
+    WindowedEngine(const Bodies& bodies, const EngineStart& start, const Executor& executor, int domains,
+                   int halo);
 
     void advance_to(const Time& end, const Time& horizon) override;
     void renew_field(const Time& t) override;

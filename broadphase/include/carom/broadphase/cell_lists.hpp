@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace carom {
@@ -61,12 +60,6 @@ class CellLists {
     }
 
     [[nodiscard]] const Block& first_block(std::int32_t cell) const { return blocks_[cell]; }
-    /// Calls f(ids, count) for every block of a cell: the first `count` of the ids are in it.
-    template <class F>
-    void for_each_block(std::int32_t cell, F&& f) const {
-        for (std::int32_t b = cell; b >= 0; b = blocks_[b].next)
-            f(std::span(blocks_[b].ids), static_cast<std::size_t>(blocks_[b].count));
-    }
 
  private:
     std::uint32_t* find(std::int32_t cell, std::uint32_t id) {

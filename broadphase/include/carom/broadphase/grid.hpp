@@ -60,6 +60,8 @@ class GridAxis {
         const std::int32_t rest = k % count_;
         return rest < 0 ? rest + count_ : rest;
     }
+    /// How many periods coordinate k is from the box; 0 on an axis that has none.
+    [[nodiscard]] std::int32_t turns(std::int32_t k) const { return periodic_ ? (k - fold(k)) / count_ : 0; }
     /// Wraps x into [min, min + length) on a periodic axis and adds to `periods` how many lengths that took
     /// away; leaves it alone on any other axis. A function of x alone.
     [[nodiscard]] double wrapped(double x, std::int32_t& periods) const {
