@@ -1,27 +1,39 @@
 #include "study.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include <carom/trade/errors.hpp>
+#include <carom/trade/settings.hpp>
+
 namespace carom::bench {
 namespace {
 
-double seconds_of(const Scene& scene, double duration) {
-    World world(scene, {.threads = 1, .count_missed = false});
-    const auto start = std::chrono::steady_clock::now();
-    world.advance_to(duration);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
+using trade::Course;
+using trade::TimeRatio;
+using trade::Trace;
 
 double count_of(const Trace& t) {
     return static_cast<double>(t.counts.ball_collisions + t.counts.wall_collisions);
 }
 
-double energy_change(const Trace& t) {
-    return (t.energy_1 - t.energy_0) / std::abs(t.energy_0);
+/// Over the most kinetic energy that the reference has had: the zero of the potential does not matter.
+double energy_change(const Trace& t, const Trace& reference) {
+    return (t.energy_1 - t.energy_0) / reference.most_kinetic_energy;
+}
+
+/// Of the places after a stretch.
+double place_error_of(const StudyScene& s, const Trace& reference, const Trace& other) {
+    return trade::place_error(trade::distances(reference.after_stretch, other.after_stretch, s.scene),
+                              s.scene);
+}
+
+/// In Lyapunov times, where there is such a time and an exponent.
+std::optional<double> in_lyapunov_times(std::optional<double> time, const Reference& r) {
+    if (!time || !r.lyapunov) return std::nullopt;
+    return *time * *r.lyapunov;
 }
 
 std::string text(double value) {
@@ -54,7 +66,7 @@ double reversal_of(const StudyScene& s) {
     for (Ball& b : scene.balls) b.velocity = -b.velocity;
     World back(scene, {.threads = 1});
     back.advance_to(there);
-    return place_error(distances(start, back.positions(), scene), scene);
+    return trade::place_error(trade::distances(start, back.positions(), scene), scene);
 }
 
 }  // namespace
@@ -67,37 +79,23 @@ std::string values_of(const Record& record) {
     return joined(record, &Field::value);
 }
 
-TimeRatio time_ratio(const Scene& setting, const Scene& reference, const Course& course, int rounds) {
-    std::vector<double> ratios;
-    for (int round = 0; round < rounds; ++round) {
-        double of_reference = 0;
-        if (round % 2 == 0) of_reference = seconds_of(reference, course.duration());
-        const double of_setting = seconds_of(setting, course.duration());
-        if (round % 2 != 0) of_reference = seconds_of(reference, course.duration());
-        ratios.push_back(of_setting / of_reference);
-    }
-    std::ranges::sort(ratios);
-    const std::size_t n = ratios.size();
-    return {(ratios[(n - 1) / 2] + ratios[n / 2]) / 2, ratios.front(), ratios.back()};
-}
-
 Reference reference_of(const StudyScene& s) {
     Reference r;
-    r.trace = trace(s.scene, s.course);
-    r.lyapunov = lyapunov_exponent(r.trace, trace(moved_a_little(s.scene), s.course), s.scene, s.course);
-    r.is_same_on_domains = trace(s.scene, s.course, 4).hash == r.trace.hash;
+    r.trace = trade::trace(s.reference, s.course);
+    const Trace moved = trade::trace(trade::moved_a_little(s.reference), s.course);
+    r.lyapunov = trade::lyapunov_exponent(r.trace, moved, s.scene, s.course);
+    r.is_same_on_domains = trade::trace(s.reference, s.course, {.domains = 4}).hash == r.trace.hash;
     if (s.is_reversible()) r.reversal = reversal_of(s);
-    const auto moving = static_cast<double>(std::ranges::count(s.scene.balls, false, &Ball::is_static));
+    if (!s.scene.attractors.empty()) {
+        Scene rougher = s.reference;
+        rougher.field_interval *= 2;
+        const Course first{.stretch = s.course.stretch, .is_detailed = false};
+        r.field = place_error_of(s, r.trace, trade::trace(rougher, first));
+    }
     r.collisions_a_ball =
-        static_cast<double>(2 * r.trace.counts.ball_collisions + r.trace.counts.wall_collisions) / moving;
+        static_cast<double>(2 * r.trace.counts.ball_collisions + r.trace.counts.wall_collisions) /
+        trade::moving_balls(s.scene);
     return r;
-}
-
-Matching matching_of(const StudyScene& s, const Trace& reference, const Trace& other) {
-    std::vector<bool> moves;
-    for (const Ball& b : s.scene.balls) moves.push_back(!b.is_static);
-    return match(reference.meetings, other.meetings, moves,
-                 {.window = s.course.stretch / 20, .until = 2 * s.course.stretch});
 }
 
 Record record_of(const StudyScene& s, const Reference& r) {
@@ -113,16 +111,22 @@ Record record_of(const StudyScene& s, const Reference& r) {
             {"lyapunov_a_collision", text(a_collision)},
             {"same_hash_on_domains", r.is_same_on_domains ? "yes" : "no"},
             {"reversal_error", text(r.reversal)},
-            {"energy_change", text(energy_change(r.trace))}};
+            {"field_error", text(r.field)},
+            {"energy_change", text(energy_change(r.trace, r.trace))}};
 }
 
-Record record_of(const StudyScene& s, const Reference& r, const Setting& setting, const TimeRatio& time) {
+Record record_of(const StudyScene& s, const Reference& r, const Setting& setting,
+                 const std::optional<trade::TimeRatio>& time) {
     const Scene& scene = setting.scene;
-    const Trace t = trace(scene, s.course);
-    const Matching m = matching_of(s, r.trace, t);
-    const std::optional<double> apart = separation_time(r.trace, t, s.scene, s.course);
-    std::optional<double> in_lyapunov_times, momentum_error, pressure_error;
-    if (apart && r.lyapunov) in_lyapunov_times = *apart * *r.lyapunov;
+    const Trace t = trade::trace(scene, s.course);
+    const trade::Matching m = trade::matching_of(s.scene, s.course, r.trace, t);
+    const std::optional<double> diverges = trade::divergence_time(s.scene, s.course, r.trace, t);
+    const std::optional<double> apart = trade::separation_time(r.trace, t, s.scene, s.course);
+    const auto of_time = [&](double TimeRatio::* part) {
+        return time ? std::optional(*time.*part) : std::nullopt;
+    };
+    std::optional<double> momentum_error, pressure_error, overlap_at_steps;
+    if (scene.method == Method::kEmpirical && scene.step) overlap_at_steps = t.max_overlap;
     if (s.keeps_momentum())
         momentum_error = std::sqrt(length_squared<double>(t.momentum_1 - t.momentum_0)) / t.speeds;
     if (t.pressure && r.trace.pressure) pressure_error = *t.pressure / *r.trace.pressure - 1;
@@ -136,24 +140,26 @@ Record record_of(const StudyScene& s, const Reference& r, const Setting& setting
             {"field_interval", s.scene.attractors.empty() ? "" : text(scene.field_interval)},
             {"contact_time", text(scene.contact_time)},
             {"steps", text(t.counts.steps)},
-            {"time_ratio", text(time.median)},
-            {"time_ratio_least", text(time.least)},
-            {"time_ratio_most", text(time.most)},
-            {"place_error",
-             text(place_error(
-                 distances(r.trace.places[Course::kSamples], t.places[Course::kSamples], s.scene), s.scene))},
+            {"time_ratio", text(of_time(&TimeRatio::median))},
+            {"time_ratio_least", text(of_time(&TimeRatio::least))},
+            {"time_ratio_most", text(of_time(&TimeRatio::most))},
+            {"time_rounds", time ? std::to_string(time->rounds) : ""},
+            {"event_seconds", text(of_time(&TimeRatio::seconds))},
+            {"place_error", text(place_error_of(s, r.trace, t))},
+            {"first_fault_lyapunov_times", text(in_lyapunov_times(diverges, r))},
             {"separation_time", text(apart)},
-            {"separation_lyapunov_times", text(in_lyapunov_times)},
+            {"separation_lyapunov_times", text(in_lyapunov_times(apart, r))},
             {"compared", std::to_string(m.compared)},
             {"missed", std::to_string(m.missed)},
             {"invented", std::to_string(m.invented)},
             {"collisions", text(count_of(t))},
             {"engine_missed", text(t.counts.missed_collisions)},
             {"collision_count_error", text(count_of(t) / count_of(r.trace) - 1)},
-            {"energy_change", text(energy_change(t))},
-            {"energy_error", text(energy_change(t) - energy_change(r.trace))},
+            {"energy_change", text(energy_change(t, r.trace))},
+            {"energy_error", text(energy_change(t, r.trace) - energy_change(r.trace, r.trace))},
             {"momentum_error", text(momentum_error)},
-            {"max_overlap", text(t.max_overlap)},
+            {"overlap_at_steps", text(overlap_at_steps)},
+            {"overlap_between", text(std::max(t.max_overlap, t.overlap_between))},
             {"pressure_error", text(pressure_error)}};
 }
 

@@ -6,7 +6,11 @@
 #include <string>
 #include <vector>
 
+#include <carom/trade/cost.hpp>
+#include <carom/trade/trace.hpp>
+
 #include "study_scenes.hpp"
+#include "study_settings.hpp"
 
 namespace carom::bench {
 
@@ -21,31 +25,21 @@ using Record = std::vector<Field>;
 [[nodiscard]] std::string names_of(const Record& record);
 [[nodiscard]] std::string values_of(const Record& record);
 
-/// Time of a setting over that of the reference, measured in turn: the median and the extremes.
-struct TimeRatio {
-    double median = 0, least = 0, most = 0;
-};
-[[nodiscard]] TimeRatio time_ratio(const Scene& setting, const Scene& reference, const Course& course,
-                                   int rounds);
-
 /// The reference of a scene and what is known of it.
 struct Reference {
-    Trace trace;
+    trade::Trace trace;
     std::optional<double> lyapunov;   ///< exponent, per time
     bool is_same_on_domains = false;  ///< cut in four, the same final hash
     std::optional<double> reversal;   ///< place error after a collision a ball, there and back
+    std::optional<double> field;      ///< place error of the field renewed half as often, after a stretch
     double collisions_a_ball = 0;
 };
 [[nodiscard]] Reference reference_of(const StudyScene& scene);
 
 /// Of the reference itself.
 [[nodiscard]] Record record_of(const StudyScene& scene, const Reference& reference);
-/// Of one setting.
+/// Of one setting; `time` is none where it is no choice.
 [[nodiscard]] Record record_of(const StudyScene& scene, const Reference& reference, const Setting& setting,
-                               const TimeRatio& time);
-
-/// Missed and invented collisions in the first two of each ball; a time may differ by a tenth of the mean
-/// time between two collisions of a ball.
-[[nodiscard]] Matching matching_of(const StudyScene& scene, const Trace& reference, const Trace& other);
+                               const std::optional<trade::TimeRatio>& time);
 
 }  // namespace carom::bench

@@ -6,11 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include <carom/broadphase/placement.hpp>
 #include <carom/io/scene_file.hpp>
 #include <carom/parallel/world.hpp>
+#include <carom/trade/settings.hpp>
 
 #include "../gas_scene.hpp"
 
@@ -25,25 +24,10 @@ double collisions_a_ball(const World& world, double balls) {
     return static_cast<double>(2 * counts.ball_collisions + counts.wall_collisions) / balls;
 }
 
-double moving_balls(const Scene& scene) {
-    return static_cast<double>(std::ranges::count(scene.balls, false, &Ball::is_static));
-}
-
 /// Advances by small frames until the balls have had so many collisions; the time then.
 double run_for(World& world, double collisions, double balls, double frame) {
     while (collisions_a_ball(world, balls) < collisions) world.step(frame);
     return world.time();
-}
-
-double step_unit(const Scene& scene) {
-    double radius = HUGE_VAL;
-    double squares = 0;
-    for (const Ball& b : scene.balls) {
-        if (b.is_static) continue;
-        radius = std::min(radius, b.radius);
-        squares += length_squared(b.velocity);
-    }
-    return radius / std::sqrt(squares / moving_balls(scene));
 }
 
 void place(Scene& scene) {
@@ -53,7 +37,7 @@ void place(Scene& scene) {
 
 void melt(Scene& scene) {
     World world(scene, {.threads = 1});
-    run_for(world, kMelting, moving_balls(scene), step_unit(scene) / 4);
+    run_for(world, kMelting, trade::moving_balls(scene), trade::step_unit(scene) / 4);
     scene.balls = world.balls();
 }
 
@@ -104,7 +88,7 @@ void add_holes(Scene& scene) {
 
 void lose_energy(Scene& scene) {
     for (Ball& b : scene.balls) b.restitution = 0.9;
-    scene.contact_time = 1e-2 * step_unit(scene);
+    scene.contact_time = 1e-2 * trade::step_unit(scene);
 }
 
 struct Recipe {
@@ -138,38 +122,6 @@ bool is_elastic(const Scene& scene) {
            std::ranges::all_of(scene.balls, [](const Ball& b) { return b.restitution == 1; });
 }
 
-void add_empirical(std::vector<Setting>& all, const StudyScene& s, bool few) {
-    for (const double share : {0.2, 0.1, 0.05, 0.02, 0.01, 0.005})
-        if (!few || share == 0.2 || share == 0.05)
-            all.push_back({fmt::format("step {}", share), stepped(s, share * s.unit)});
-    for (const double travel : {0.5, 0.2, 0.1, 0.05, 0.02}) {
-        if (few && travel != 0.2) continue;
-        Scene scene = s.scene;
-        scene.method = Method::kEmpirical;
-        scene.max_travel = travel;
-        all.push_back({fmt::format("travel {}", travel), scene});
-    }
-    for (const double share : {1e-3, 1e-9}) {
-        if (few) continue;
-        Scene scene = stepped(s, 0.02 * s.unit);
-        // The smallest moving radius, as the default has it.
-        double radius = HUGE_VAL;
-        for (const Ball& b : scene.balls)
-            if (!b.is_static) radius = std::min(radius, b.radius);
-        scene.tolerance = share * radius;
-        all.push_back({fmt::format("step 0.02, tolerance {:.0e}", share), scene});
-    }
-}
-
-void add_varied(std::vector<Setting>& all, const StudyScene& s, double Scene::* key, const char* name,
-                const std::vector<double>& factors) {
-    for (const double factor : factors) {
-        Setting setting{fmt::format("event, {} x {}", name, factor), s.scene};
-        setting.scene.*key *= factor;
-        all.push_back(setting);
-    }
-}
-
 }  // namespace
 
 bool StudyScene::is_reversible() const {
@@ -190,42 +142,17 @@ std::vector<std::string> study_names() {
 StudyScene study_scene(const std::string& name, bool small, const std::string& scenes) {
     const auto recipe = std::ranges::find(recipes(), name, &Recipe::name);
     if (recipe == recipes().end()) throw std::invalid_argument("no scene " + name);
-    StudyScene s{name, recipe->make(small, scenes), {}, 0};
-    s.unit = step_unit(s.scene);
+    StudyScene s{name, recipe->make(small, scenes), {}, {}, 0};
+    s.unit = trade::step_unit(s.scene);
     s.course.stretches = small ? 4 : recipe->stretches;
     World world(s.scene, {.threads = 1});
     const double collisions = 2.0 * s.course.stretches;
-    s.course.stretch = run_for(world, collisions, moving_balls(s.scene), s.unit / 4) / s.course.stretches;
+    s.course.stretch =
+        run_for(world, collisions, trade::moving_balls(s.scene), s.unit / 4) / s.course.stretches;
     s.scene.until = s.course.duration();
+    s.reference = s.scene;
+    s.reference.field_interval /= StudyScene::kFinerField;
     return s;
-}
-
-Scene stepped(const StudyScene& s, double step) {
-    Scene scene = s.scene;
-    scene.method = Method::kEmpirical;
-    const double sample = s.course.time_of(1);
-    const double whole = step <= sample ? sample : s.course.stretch;
-    scene.step = whole / std::ceil(whole / step);
-    return scene;
-}
-
-std::vector<Setting> settings_of(const StudyScene& s, bool few) {
-    std::vector<Setting> all = {{"event", s.scene}, {"event, moved 1e-12", moved_a_little(s.scene)}};
-    Setting in_float{"event, float", s.scene};
-    in_float.scene.precision = Precision::kFloat;
-    all.push_back(in_float);
-    if (!s.scene.attractors.empty())
-        add_varied(all, s, &Scene::field_interval, "field_interval",
-                   few ? std::vector{0.25, 4.0} : std::vector{0.25, 0.5, 2.0, 4.0});
-    if (s.name == "granular") {
-        for (const double factor : {0.1, 10.0}) {
-            Setting setting{fmt::format("event, contact_time x {}", factor), s.scene};
-            setting.scene.contact_time = *s.scene.contact_time * factor;
-            all.push_back(setting);
-        }
-    }
-    add_empirical(all, s, few);
-    return all;
 }
 
 }  // namespace carom::bench

@@ -1,4 +1,4 @@
-// The scenes of the study of speed against accuracy, and the settings that each is run with.
+// The scenes of the study of speed against accuracy.
 #pragma once
 
 #include <string>
@@ -6,14 +6,18 @@
 
 #include <carom/core/scene.hpp>
 
-#include "trace.hpp"
+#include <carom/trade/trace.hpp>
 
 namespace carom::bench {
 
 struct StudyScene {
     std::string name;
     Scene scene;  ///< its balls placed, melted where they were placed at random
-    Course course;
+    /// What errors are measured against: the scene by the event method, attractors' field renewed
+    /// kFinerField times as often.
+    Scene reference;
+    static constexpr double kFinerField = 32;
+    trade::Course course;
     double unit = 0;  ///< of steps: smallest moving radius over root-mean-square speed at the start
 
     /// Whether turning all velocities leads back to the start.
@@ -22,22 +26,10 @@ struct StudyScene {
     [[nodiscard]] bool keeps_momentum() const;
 };
 
-struct Setting {
-    std::string name;
-    Scene scene;
-};
-
 /// The names of all scenes.
 [[nodiscard]] std::vector<std::string> study_names();
 
 /// `small`: fewer balls and collisions. `scenes` is the folder of the screensaver's file.
 [[nodiscard]] StudyScene study_scene(const std::string& name, bool small, const std::string& scenes);
-
-/// The first is the event method in double: the reference. `few`: only some.
-[[nodiscard]] std::vector<Setting> settings_of(const StudyScene& scene, bool few);
-
-/// The scene by the empirical method with about the given step, so that a sample's time is a whole number of
-/// steps, or where steps are longer a stretch is.
-[[nodiscard]] Scene stepped(const StudyScene& scene, double step);
 
 }  // namespace carom::bench

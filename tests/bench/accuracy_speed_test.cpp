@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <carom/trade/errors.hpp>
+#include <carom/trade/settings.hpp>
+
 #include "study.hpp"
 
 namespace carom::bench {
@@ -40,14 +43,15 @@ TEST(AccuracySpeed, ChaosOfADenseGasIsAsFastAsKnown) {
 // step that the share is the closed form's but for a factor of 2 and four standard errors of a count.
 TEST(AccuracySpeed, MissedCollisionsFallWithTheStep) {
     const StudyScene s = study_scene("dilute", false, kScenes);
-    const Trace reference = trace(s.scene, s.course);
+    const trade::Trace reference = trade::trace(s.reference, s.course);
     const auto missed_with = [&](double share) {
-        return matching_of(s, reference, trace(stepped(s, share * s.unit), s.course));
+        return trade::matching_of(s.scene, s.course, reference,
+                                  trade::trace(trade::stepped(s.scene, s.course, share * s.unit), s.course));
     };
-    const Matching at_long = missed_with(1);
-    const Matching at_short = missed_with(0.25);
+    const trade::Matching at_long = missed_with(1);
+    const trade::Matching at_short = missed_with(0.25);
     ASSERT_GT(at_long.compared, s.scene.balls.size() / 2);
-    const double h = *stepped(s, s.unit).step;
+    const double h = *trade::stepped(s.scene, s.course, s.unit).step;
     const double expected = h * h / 4 * static_cast<double>(at_long.compared);
     ASSERT_GT(expected, 10);  // else the test has lost its subject
     const auto missed = static_cast<double>(at_long.missed);
@@ -60,11 +64,10 @@ TEST(AccuracySpeed, MissedCollisionsFallWithTheStep) {
 // of the first at most: at an eighth of the step a quarter is generous.
 TEST(AccuracySpeed, PlacesAreBetterWithShorterSteps) {
     const StudyScene s = small("dense");
-    const Trace reference = trace(s.scene, s.course);
+    const trade::Trace reference = trade::trace(s.reference, s.course);
     const auto error_with = [&](double share) {
-        const Trace t = trace(stepped(s, share * s.unit), s.course);
-        return place_error(distances(reference.places[Course::kSamples], t.places[Course::kSamples], s.scene),
-                           s.scene);
+        const trade::Trace t = trade::trace(trade::stepped(s.scene, s.course, share * s.unit), s.course);
+        return trade::errors_of(s.scene, s.course, reference, t).places;
     };
     EXPECT_LT(error_with(0.05), error_with(0.4) / 4);
 }
@@ -77,19 +80,25 @@ std::string value_of(const Record& record, const std::string& name) {
 TEST(AccuracySpeed, TheReferenceHasNoErrorAndEveryColumn) {
     const StudyScene s = small("dense");
     const Reference r = reference_of(s);
-    const Record record = record_of(s, r, settings_of(s, true).front(), {1, 1, 1});
+    const Record record = record_of(s, r, settings_of(s, true).front(), trade::TimeRatio{1, 1, 1, 1, 1});
     for (const char* name :
          {"place_error", "missed", "invented", "collision_count_error", "energy_error", "pressure_error"})
         EXPECT_EQ(value_of(record, name), "0") << name;
     EXPECT_EQ(value_of(record, "separation_time"), "");
     for (const char* name :
-         {"scene", "setting", "time_ratio", "compared", "collisions", "momentum_error", "max_overlap"})
+         {"scene", "setting", "time_ratio", "compared", "collisions", "momentum_error", "overlap_between"})
         EXPECT_NE(value_of(record, name), "") << name;
     // One head for all lines.
-    const Record other = record_of(s, r, settings_of(s, true).back(), {2, 1, 3});
+    const Record other = record_of(s, r, settings_of(s, true).at(2), trade::TimeRatio{2, 1, 3, 3, 1});
     EXPECT_EQ(names_of(other), names_of(record));
     EXPECT_NE(value_of(other, "step") + value_of(other, "max_travel"), "");
     EXPECT_NE(value_of(other, "engine_missed"), "");
+}
+
+TEST(Record, IsALineOfCsv) {
+    const Record record = {{"a", ""}, {"b", "x, y"}, {"c", "1"}};
+    EXPECT_EQ(names_of(record), "a,b,c");
+    EXPECT_EQ(values_of(record), ",\"x, y\",1");
 }
 
 TEST(AccuracySpeed, EveryScenesFirstSettingIsTheReference) {

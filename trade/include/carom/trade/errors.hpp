@@ -1,39 +1,13 @@
-// One run as the study sees it, and how far two of them are apart.
+// How wrong a run is, against a reference that it is compared with before chaos parts the two.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
-#include <carom/parallel/world.hpp>
+#include <carom/core/scene.hpp>
+#include <carom/trade/matching.hpp>
+#include <carom/trade/trace.hpp>
 
-#include "matching.hpp"
-
-namespace carom::bench {
-
-/// How long a scene runs and when it is looked at. A stretch is the time in which a ball has two collisions
-/// on the mean.
-struct Course {
-    double stretch = 0;
-    int stretches = 1;
-    static constexpr int kSamples = 16;  ///< of all places in a stretch
-    [[nodiscard]] double duration() const { return stretch * stretches; }
-    [[nodiscard]] double time_of(std::size_t sample) const { return stretch * double(sample) / kSamples; }
-};
-
-struct Trace {
-    std::vector<PlaneVectors> places;  ///< one a sample, from time 0 on
-    std::vector<Meeting> meetings;     ///< of the first three stretches
-    Counts counts;
-    double energy_0 = 0, energy_1 = 0;
-    Vec2 momentum_0 = Vec2::Zero(), momentum_1 = Vec2::Zero();
-    double speeds = 0;               ///< sum of mass times speed at the start: what momentum is small against
-    double max_overlap = 0;          ///< at the ends of the stretches, the deepest of them
-    std::optional<double> pressure;  ///< PA / NkT
-    std::uint64_t hash = 0;
-};
-
-[[nodiscard]] Trace trace(const Scene& scene, const Course& course, int domains = 1);
+namespace carom::trade {
 
 /// The distance of each ball's places in two samples, across periodic sides where that is shorter.
 [[nodiscard]] std::vector<double> distances(const PlaneVectors& x, const PlaneVectors& y, const Scene& scene);
@@ -41,6 +15,26 @@ struct Trace {
 /// Mean of the distances, each at most the ball's radius, in radii: 0 for the same places, 1 for unrelated
 /// ones. Static balls are left out.
 [[nodiscard]] double place_error(const std::vector<double>& distances, const Scene& scene);
+
+/// Missed and invented collisions among the first two of each ball, in the first two stretches; a time may
+/// differ by a tenth of the mean time between two collisions of a ball.
+[[nodiscard]] Matching matching_of(const Scene& scene, const Course& course, const Trace& reference,
+                                   const Trace& other);
+
+/// When the first collision happens that only one of the two runs has, however late; none where they agree.
+[[nodiscard]] std::optional<double> divergence_time(const Scene& scene, const Course& course,
+                                                    const Trace& reference, const Trace& other);
+
+/// What the first stretch shows of a run: the largest of the four is its error.
+struct Errors {
+    double energy = 0;      ///< difference from the reference, over the most kinetic energy
+    double collisions = 0;  ///< missed and invented ones over those that were compared
+    double overlap = 0;     ///< the deepest at the samples, in radii's sums
+    double places = 0;      ///< mean distance from the reference's places at the end, in radii
+    [[nodiscard]] double largest() const;
+};
+[[nodiscard]] Errors errors_of(const Scene& scene, const Course& course, const Trace& reference,
+                               const Trace& other);
 
 /// When half of the moving balls have once been a radius from their places in the reference; none where that
 /// does not happen.
@@ -60,4 +54,4 @@ struct Trace {
 /// The scene with the place of its first moving ball changed by 1e-12 of the radius.
 [[nodiscard]] Scene moved_a_little(Scene scene);
 
-}  // namespace carom::bench
+}  // namespace carom::trade

@@ -3,9 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-namespace carom::bench {
+namespace carom::trade {
 
 /// A collision of two bodies: balls by their ids, walls numbered after the balls.
 struct Meeting {
@@ -15,9 +16,10 @@ struct Meeting {
 };
 
 struct Matching {
-    std::size_t compared = 0;  ///< collisions of the reference that the other list had to have
-    std::size_t missed = 0;    ///< of them those that it has not
-    std::size_t invented = 0;  ///< that it has and the reference has not
+    std::size_t compared = 0;           ///< collisions of the reference that the other list had to have
+    std::size_t missed = 0;             ///< of them those that it has not
+    std::size_t invented = 0;           ///< that it has and the reference has not
+    std::optional<double> first_fault;  ///< time of the first of either
 };
 
 struct MatchingRules {
@@ -34,4 +36,4 @@ struct MatchingRules {
 [[nodiscard]] Matching match(const std::vector<Meeting>& reference, const std::vector<Meeting>& other,
                              const std::vector<bool>& moves, const MatchingRules& rules);
 
-}  // namespace carom::bench
+}  // namespace carom::trade

@@ -1,14 +1,11 @@
-// Missed and invented collisions, on constructed lists; growth and distances on constructed figures.
+// Missed and invented collisions, on constructed lists.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
-#include "matching.hpp"
-#include "study.hpp"
-#include "trace.hpp"
+#include <carom/trade/matching.hpp>
 
-namespace carom::bench {
+namespace carom::trade {
 namespace {
 
 const std::vector<bool> kSixMove(6, true);
@@ -36,6 +33,8 @@ TEST(Matching, CountsAMissedOneOnce) {
     const std::vector<Meeting> reference = {{1, 0, 1}, {2, 0, 2}, {3, 4, 5}};
     const std::vector<Meeting> other = {{2.1, 1, 3}, {3, 4, 5}, {3.5, 0, 3}};
     expect(match(reference, other, kSixMove, kRules), 2, 1, 0);
+    EXPECT_EQ(match(reference, other, kSixMove, kRules).first_fault, 1);
+    EXPECT_FALSE(match(reference, reference, kSixMove, kRules).first_fault);
 }
 
 TEST(Matching, CountsAnInventedOneOnce) {
@@ -66,35 +65,5 @@ TEST(Matching, ComparesTheFirstOfEachBallUntilATime) {
     expect(match(reference, {{1, 0, 6}, {2, 0, 6}}, kSixMove, kRules), 2, 0, 0);
 }
 
-// exp(3 t) between 1e-10 and 1e-2; what lies outside, and after the first excess, is not looked at.
-TEST(Trace, GrowthIsTheSlopeOfTheLogarithm) {
-    std::vector<double> times;
-    std::vector<double> norms;
-    for (int k = 0; k < 100; ++k) {
-        times.push_back(0.1 * k);
-        norms.push_back(k < 10 ? 1e-11 : k > 70 ? 0.005 + (k % 2) : 1e-11 * std::exp(3 * times.back()));
-    }
-    // Some sixty points of a straight line: rounding alone.
-    EXPECT_NEAR(growth_of(times, norms, 1e-10, 1e-2).value(), 3, 1e-12);
-    EXPECT_FALSE(growth_of({0, 1}, {1e-5, 1e-4}, 1e-10, 1e-2));
-}
-
-TEST(Trace, DistancesCrossPeriodicSides) {
-    Scene s;
-    s.domain = Domain{{{0, 0}, {10, 10}}, {Boundary::kPeriodic, Boundary::kWall}, 1};
-    s.balls.resize(2);
-    const std::vector<double> d = distances({{0.5, 1}, {1, 1}}, {{9.5, 1}, {1, 9}}, s);
-    EXPECT_EQ(d, (std::vector<double>{1, 8}));
-    EXPECT_EQ(place_error({0.25, 8}, s), 0.75);  // half a radius, and more than one
-    s.balls[1].is_static = true;
-    EXPECT_EQ(place_error({0.25, 8}, s), 0.5);
-}
-
-TEST(Record, IsALineOfCsv) {
-    const Record record = {{"a", ""}, {"b", "x, y"}, {"c", "1"}};
-    EXPECT_EQ(names_of(record), "a,b,c");
-    EXPECT_EQ(values_of(record), ",\"x, y\",1");
-}
-
 }  // namespace
-}  // namespace carom::bench
+}  // namespace carom::trade

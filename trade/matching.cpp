@@ -1,4 +1,4 @@
-#include "matching.hpp"
+#include <carom/trade/matching.hpp>
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-namespace carom::bench {
+namespace carom::trade {
 namespace {
 
 /// The bodies, the smaller number first, and which of each one's collisions it is.
@@ -69,6 +69,7 @@ Matching match(const std::vector<Meeting>& reference, const std::vector<Meeting>
             agrees = found != wanted.end() && std::abs(found->second - k.time) <= rules.window;
             if (k.is_reference) ++result.compared;
             if (!agrees) ++(k.is_reference ? result.missed : result.invented);
+            if (!agrees && !result.first_fault) result.first_fault = k.time;
         }
         if (agrees) continue;
         for (const std::uint32_t body : {a, b})
@@ -77,4 +78,4 @@ Matching match(const std::vector<Meeting>& reference, const std::vector<Meeting>
     return result;
 }
 
-}  // namespace carom::bench
+}  // namespace carom::trade

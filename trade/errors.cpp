@@ -1,26 +1,13 @@
-#include "trace.hpp"
+#include <carom/trade/errors.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-namespace carom::bench {
+namespace carom::trade {
 namespace {
 
 constexpr double kMoved = 1e-12;
-// Steps end at the samples, but for rounding: look a little later, in every run.
-constexpr double kLater = 1e-9;
-
-/// Energy of the balls in the attractors' field, which World leaves out: -k / sqrt(d^2 + s^2) a unit of mass.
-double energy_in_field(const World& world, const Scene& scene) {
-    double energy = 0;
-    for (const Ball& b : world.balls())
-        for (const Attractor& a : scene.attractors)
-            if (!b.is_static)
-                energy -=
-                    b.mass * a.strength /
-                    std::sqrt(length_squared<double>(b.position - a.position) + a.softening * a.softening);
-    return energy;
-}
 
 double radius_of(const Scene& scene) {
     return std::ranges::find(scene.balls, false, &Ball::is_static)->radius;
@@ -32,32 +19,17 @@ double norm_of(const std::vector<double>& distances) {
     return std::sqrt(sum);
 }
 
-}  // namespace
-
-Trace trace(const Scene& scene, const Course& course, int domains) {
-    World world(scene, {.threads = 1, .domains = domains});
-    const auto balls = static_cast<std::uint32_t>(world.ball_count());
-    Trace t;
-    t.energy_0 = world.energy() + energy_in_field(world, scene);
-    t.momentum_0 = world.momentum();
-    for (const Ball& b : world.balls()) t.speeds += b.mass * std::sqrt(length_squared(b.velocity));
-    world.on_collision([&](const Collision& c) {
-        if (c.time > 3 * course.stretch) return;
-        t.meetings.push_back({c.time, c.i, c.kind == CollisionKind::kBall ? c.j : balls + c.j});
-    });
-    const auto samples = static_cast<std::size_t>(course.stretches) * Course::kSamples;
-    for (std::size_t k = 0; k <= samples; ++k) {
-        if (k > 0) world.advance_to(course.time_of(k) + kLater * course.time_of(1));
-        t.places.push_back(world.positions());
-        if (k % Course::kSamples == 0) t.max_overlap = std::max(t.max_overlap, world.max_overlap());
-    }
-    t.counts = world.counts();
-    t.energy_1 = world.energy() + energy_in_field(world, scene);
-    t.momentum_1 = world.momentum();
-    t.pressure = world.compressibility_factor();
-    t.hash = world.state_hash();
-    return t;
+/// Collisions of each ball up to the `first`th and the time, a window before the end at the latest.
+Matching matching(const Scene& scene, const Course& course, const Trace& reference, const Trace& other,
+                  std::uint32_t first, double until) {
+    std::vector<bool> moves;
+    for (const Ball& b : scene.balls) moves.push_back(!b.is_static);
+    const double window = course.stretch / 20;
+    return match(reference.meetings, other.meetings, moves,
+                 {.first = first, .window = window, .until = std::min(until, course.duration() - window)});
 }
+
+}  // namespace
 
 std::vector<double> distances(const PlaneVectors& x, const PlaneVectors& y, const Scene& scene) {
     std::vector<double> result;
@@ -80,6 +52,32 @@ double place_error(const std::vector<double>& distances, const Scene& scene) {
         ++balls;
     }
     return sum / balls;
+}
+
+Matching matching_of(const Scene& scene, const Course& course, const Trace& reference, const Trace& other) {
+    return matching(scene, course, reference, other, 2, 2 * course.stretch);
+}
+
+std::optional<double> divergence_time(const Scene& scene, const Course& course, const Trace& reference,
+                                      const Trace& other) {
+    constexpr auto kAll = std::numeric_limits<std::uint32_t>::max();
+    return matching(scene, course, reference, other, kAll, course.duration()).first_fault;
+}
+
+double Errors::largest() const {
+    return std::max({energy, collisions, overlap, places});
+}
+
+Errors errors_of(const Scene& scene, const Course& course, const Trace& reference, const Trace& other) {
+    Errors errors;
+    const double energy = std::abs(other.energy_after_stretch - reference.energy_after_stretch);
+    if (energy > 0) errors.energy = energy / reference.most_kinetic_energy;
+    const Matching m = matching_of(scene, course, reference, other);
+    const auto faults = static_cast<double>(m.missed + m.invented);
+    if (faults > 0) errors.collisions = faults / static_cast<double>(std::max<std::size_t>(m.compared, 1));
+    errors.overlap = other.max_overlap;
+    errors.places = place_error(distances(reference.after_stretch, other.after_stretch, scene), scene);
+    return errors;
 }
 
 std::optional<double> separation_time(const Trace& reference, const Trace& other, const Scene& scene,
@@ -134,4 +132,4 @@ Scene moved_a_little(Scene scene) {
     return scene;
 }
 
-}  // namespace carom::bench
+}  // namespace carom::trade
