@@ -1,10 +1,10 @@
 #include <carom/trade/cost.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 #include <carom/parallel/world.hpp>
+#include <carom/trade/clock.hpp>
 
 namespace carom::trade {
 namespace {
@@ -15,7 +15,7 @@ double seconds_of(const Scene& scene, double duration, int threads) {
     World world(scene, {.threads = threads, .count_missed = false});
     const auto start = std::chrono::steady_clock::now();
     world.advance_to(duration);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return seconds_since(start);
 }
 
 /// Sorts them.
@@ -30,11 +30,11 @@ double median_of(std::vector<double>& values) {
 TimeRatio time_ratio(const Scene& setting, const Scene& reference, double duration, const Timing& timing) {
     std::vector<double> ratios;
     std::vector<double> seconds;
-    double spent = 0;
+    const auto start = std::chrono::steady_clock::now();
     const auto is_enough = [&](int rounds) {
         if (rounds == 0) return false;
-        return (rounds >= timing.least_rounds && spent >= timing.enough_seconds) || rounds == kMostRounds ||
-               !timing.goes_on();
+        return (rounds >= timing.least_rounds && seconds_since(start) >= timing.enough_seconds) ||
+               rounds == kMostRounds || !timing.goes_on();
     };
     for (int round = 0; !is_enough(round); ++round) {
         double of_reference = 0;
@@ -43,7 +43,6 @@ TimeRatio time_ratio(const Scene& setting, const Scene& reference, double durati
         if (round % 2 != 0) of_reference = seconds_of(reference, duration, timing.threads);
         ratios.push_back(of_setting / of_reference);
         seconds.push_back(of_reference);
-        spent += of_setting + of_reference;
     }
     const double median = median_of(ratios);
     return {median, ratios.front(), ratios.back(), static_cast<int>(ratios.size()), median_of(seconds)};

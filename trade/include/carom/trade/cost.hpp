@@ -11,7 +11,7 @@ namespace carom::trade {
 struct Timing {
     int threads = 1;
     int least_rounds = 3;         ///< pairs of runs
-    double enough_seconds = 0.3;  ///< of all runs together: short runs are repeated until then
+    double enough_seconds = 0.3;  ///< for all of it: short runs are repeated until then
     std::function<bool()> goes_on = [] { return true; };  ///< asked between rounds; the first is made anyhow
 };
 
