@@ -40,7 +40,7 @@ Exit status 1 where no setting keeps the error.
 
 Examples:
   carom advise box.json                        The fastest setting for an error of 1e-3
-  carom advise rain.json --from 8 --error 1e-2 --seconds 10
+  carom advise rain.json --from 5 --error 1e-2 --seconds 10
   carom advise box.json --json | jq -r .command)";
 
 struct AdviseOptions {

@@ -110,9 +110,9 @@ const std::vector<Recipe>& recipes() {
         {"fast", 15, [](bool small, auto&) { return gas(small, 0.3, {}, speed_up); }},
         {"mixed", 15, [](bool small, auto&) { return gas(small, 0.5, mix_sizes, {}); }},
         {"gravity", 10, [](bool small, auto&) { return gas(small, 0.2, enclose, pull_down); }},
-        {"holes", 10, [](bool small, auto&) { return gas(small, 0.1, enclose, add_holes); }},
+        {"holes", 6, [](bool small, auto&) { return gas(small, 0.1, enclose, add_holes); }},
         {"granular", 15, [](bool small, auto&) { return gas(small, 0.5, {}, lose_energy); }},
-        {"screensaver", 10, [](bool, const std::string& scenes) { return screensaver(scenes); }},
+        {"screensaver", 6, [](bool, const std::string& scenes) { return screensaver(scenes); }},
     };
     return kAll;
 }

@@ -21,6 +21,9 @@ class Settings {
         if (!few_ || is_needed) all_.push_back({name, scene});
     }
 
+    /// A longer step than a stretch would be shortened to one: that is no setting of its own.
+    [[nodiscard]] bool has_step(double share) const { return share * s_.unit <= s_.course.stretch; }
+
     [[nodiscard]] Scene stepped(double share) const {
         return trade::stepped(s_.scene, s_.course, share * s_.unit);
     }
@@ -35,9 +38,10 @@ class Settings {
     }
 
     void add_steps() {
-        for (const double share : {1.0, 0.5, 0.2, 0.1, 0.05, 0.02})
-            add(fmt::format("step {}", share), stepped(share), share == 0.2 || share == 0.05);
-        for (const double travel : {0.5, 0.2, 0.1, 0.05}) {
+        for (const double share : {1.0, 0.5, 0.2, 0.1, 0.05})
+            if (has_step(share))
+                add(fmt::format("step {}", share), stepped(share), share == 0.2 || share == 0.05);
+        for (const double travel : {0.5, 0.2, 0.1}) {
             Scene scene = s_.scene;
             scene.method = Method::kEmpirical;
             scene.max_travel = travel;
@@ -54,7 +58,8 @@ class Settings {
             add(fmt::format("step {}, tol {:.0e}", share, tolerance), scene, is_needed);
         };
         add_one(kUsualStep, 1e-3, false);
-        for (const double share : {0.5, 0.2, 0.1, 0.05, 0.02}) add_one(share, 1e-9, share == kUsualStep);
+        for (const double share : {0.5, 0.2, 0.1, 0.05, 0.02})
+            if (has_step(share)) add_one(share, 1e-9, share == kUsualStep);
     }
 
     void add_field_intervals() {
