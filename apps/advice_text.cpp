@@ -67,10 +67,9 @@ std::string aligned(const std::vector<Row>& rows) {
 std::string conclusion(const AdviceRequest& request, const trade::Advice& advice) {
     if (!advice.choice) return "";
     const trade::Trial& best = advice.trials[*advice.choice];
+    const double ratio = best.time.value_or(trade::TimeRatio{}).median;
     const std::string faster =
-        best.time->median < 0.95
-            ? fmt::format(", {:.3g} times as fast as the scene's event method", 1 / best.time->median)
-            : "";
+        ratio < 0.95 ? fmt::format(", {:.3g} times as fast as the scene's event method", 1 / ratio) : "";
     return fmt::format("\nThe fastest that keeps an error of {:g}: {}{}\n  {}\n", request.error, best.name,
                        faster, command_of(request, best.scene));
 }
@@ -110,8 +109,8 @@ std::string command_of(const AdviceRequest& request, const Scene& setting) {
         line += fmt::format(" {} {}", option, value);
     };
     if (setting.method == Method::kEmpirical) {
-        add("--step", setting.step.value());
-        add("--tolerance", setting.tolerance.value());
+        add("--step", setting.step.value_or(0));
+        add("--tolerance", setting.tolerance.value_or(0));
         if (request.scene.max_travel) add("--max-travel", 0);  // or the scene's would shorten steps
         line += " --no-missed";
     }

@@ -220,10 +220,11 @@ bool Adviser::try_ladder(const Scene& from) {
     const double radius = smallest_radius(scene_);
     for (const double share : {1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01}) {
         Scene scene = stepped(from, course_, share * radius / speed_);
-        scene.step = rounded_down(*scene.step);
+        const double step = rounded_down(scene.step.value_or(course_.stretch));
+        scene.step = step;
         const double tolerance = std::clamp(kPartOfTolerance * options_.error, kLeastTolerance, 1e-3);
         scene.tolerance = rounded_down(tolerance * radius);
-        const Trial* const trial = try_one(with_field(fmt::format("step {:.4g}", *scene.step), scene), scene);
+        const Trial* const trial = try_one(with_field(fmt::format("step {:.4g}", step), scene), scene);
         if (trial == nullptr || !trial->errors) return false;
         if (trial->keeps) return true;
     }

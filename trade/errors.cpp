@@ -22,8 +22,8 @@ double norm_of(const std::vector<double>& distances) {
 /// Collisions of each ball up to the `first`th and the time, a window before the end at the latest.
 Matching matching(const Scene& scene, const Course& course, const Trace& reference, const Trace& other,
                   std::uint32_t first, double until) {
-    std::vector<bool> moves;
-    for (const Ball& b : scene.balls) moves.push_back(!b.is_static);
+    std::vector<bool> moves(scene.balls.size());
+    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = !scene.balls[i].is_static;
     const double window = course.stretch / 20;
     return match(reference.meetings, other.meetings, moves,
                  {.first = first, .window = window, .until = std::min(until, course.duration() - window)});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -48,12 +49,12 @@ std::map<Identity, double> times_of(const std::vector<Known>& list) {
 
 Matching match(const std::vector<Meeting>& reference, const std::vector<Meeting>& other,
                const std::vector<bool>& moves, const MatchingRules& rules) {
-    std::vector<Known> all = first_ones(reference, true, moves, rules.first);
+    const std::vector<Known> ours = first_ones(reference, true, moves, rules.first);
     const std::vector<Known> others = first_ones(other, false, moves, rules.first);
-    const std::map<Identity, double> times = times_of(all);
+    const std::map<Identity, double> times = times_of(ours);
     const std::map<Identity, double> times_of_other = times_of(others);
-    all.insert(all.end(), others.begin(), others.end());
-    std::ranges::stable_sort(all, {}, &Known::time);
+    std::vector<Known> all;  // of the same time, the reference's first
+    std::ranges::merge(ours, others, std::back_inserter(all), {}, &Known::time, &Known::time);
 
     std::vector<bool> strays(moves.size(), false);
     Matching result;
