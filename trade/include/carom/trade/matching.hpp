@@ -28,11 +28,11 @@ struct MatchingRules {
     double until = 0;         ///< later collisions are not compared; both lists must go on for a window
 };
 
-/// Compares two lists, each in the order of time. A collision is the same in both where the same bodies meet, it is
-/// the n-th of either ball in both, and the times differ by at most the window. One that only one list has is
-/// counted once, and its balls are not compared from there on, nor is a ball that one of those meets: what
-/// differs later differs for that reason. `moves` tells which balls have a history at all; static ones and
-/// walls have none. Linear but for sorting.
+/// Compares two lists, each in the order of time. A collision is the same in both where the same bodies meet,
+/// it is the n-th of either ball in both, and the times differ by at most the window. One that only one list
+/// has is counted once, and its balls are not compared from there on, nor is a ball that one of those meets:
+/// what differs later differs for that reason. `moves` tells which balls have a history at all; static ones
+/// and walls have none. Linear but for sorting.
 [[nodiscard]] Matching match(const std::vector<Meeting>& reference, const std::vector<Meeting>& other,
                              const std::vector<bool>& moves, const MatchingRules& rules);
 
