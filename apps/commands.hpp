@@ -17,5 +17,6 @@ void add_run_command(CLI::App& app, int& status);
 void add_validate_command(CLI::App& app, int& status);
 void add_render_command(CLI::App& app, int& status);
 void add_stress_command(CLI::App& app, int& status);
+void add_advise_command(CLI::App& app, int& status);
 
 }  // namespace carom::app

@@ -22,6 +22,7 @@ constexpr const char* kFooter = R"(Examples:
   carom run box.json                           Simulate it; the summary goes to standard output
   carom run box.json --picture end.png         ... and draw the end
   carom render box.json --out start.svg        Draw it as it starts
+  carom advise box.json --error 1e-3           Which setting is the fastest that keeps this error?
 
 'carom COMMAND --help' says more of each command.
 Exit status: 0 good, 1 a scene, an input or an output is wrong, 2 wrong usage, 130 interrupted.)";
@@ -58,6 +59,7 @@ int run_program(int argc, char** argv) {
     add_validate_command(app, status);
     add_render_command(app, status);
     add_stress_command(app, status);
+    add_advise_command(app, status);
     try {
         require_command(app, argc, argv);
         app.parse(argc, argv);

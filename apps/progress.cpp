@@ -88,12 +88,12 @@ bool locale_has_utf8() {
     return std::strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
 
+}  // namespace
+
 bool can_draw_bar() {
     const char* const terminal = std::getenv("TERM");
     return isatty(STDERR_FILENO) != 0 && terminal != nullptr && std::strcmp(terminal, "dumb") != 0;
 }
-
-}  // namespace
 
 std::string progress_bar(const ProgressReading& reading, int width, bool utf8) {
     const std::string percent = fmt::format("{:3.0f} %", std::floor(100 * share_of(reading)));

@@ -26,6 +26,9 @@ struct ProgressReading {
 /// The same for a log.
 [[nodiscard]] std::string progress_line(const ProgressReading& reading);
 
+/// Whether standard error is a terminal that moves its cursor.
+[[nodiscard]] bool can_draw_bar();
+
 /// Shows progress at a fitting pace. Nothing is shown of runs that are over at once.
 class Progress {
  public:

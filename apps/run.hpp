@@ -25,6 +25,8 @@ struct RunOptions {
     std::optional<Method> method;  ///< none: the scene's, as the next two
     std::optional<double> tolerance;
     std::optional<double> max_travel;
+    std::optional<double> contact_time;    ///< none: the scene's, as the next
+    std::optional<double> field_interval;  ///< given only where there are attractors
     bool count_missed = true;
     std::optional<Precision> precision;         ///< none: the scene's
     std::optional<Precision> output_precision;  ///< none: the simulation's

@@ -115,11 +115,21 @@ void take_method(Scene& scene, const RunOptions& options) {
     if (options.max_travel) scene.max_travel = options.max_travel;
 }
 
+// So do the settings that both methods have.
+void take_settings(Scene& scene, const RunOptions& options) {
+    scene.precision = options.precision.value_or(scene.precision);
+    if (options.contact_time) scene.contact_time = options.contact_time;
+    if (!options.field_interval) return;
+    if (scene.attractors.empty())
+        throw CLI::ValidationError("--field-interval", "belongs to scenes with attractors, this has none");
+    scene.field_interval = *options.field_interval;
+}
+
 int run(const RunOptions& options) {
     require_fitting(options);
     require_distinct_files(options);
     Scene scene = read_scene(options.scene);
-    scene.precision = options.precision.value_or(scene.precision);
+    take_settings(scene, options);
     take_method(scene, options);
     if (options.check_memory) require_memory(scene);
     const double until = options.until.value_or(scene.until);
@@ -216,6 +226,20 @@ void add_method_options(CLI::App& command, RunOptions& options) {
             "(default: 0.2 where no step is given; 0: no limit)")
         ->type_name("X")
         ->check(number_from_zero())
+        ->group(group);
+    command
+        .add_option(
+            "--contact-time", options.contact_time,
+            "A ball that collides again within this time loses nothing (default: the scene's; 0: off)")
+        ->type_name("T")
+        ->check(number_from_zero())
+        ->group(group);
+    command
+        .add_option("--field-interval", options.field_interval,
+                    "Attractors' pulls are held constant for so long: shorter is more accurate and slower "
+                    "(default: the scene's)")
+        ->type_name("DT")
+        ->check(positive_number())
         ->group(group);
     command
         .add_flag("!--no-missed", options.count_missed,
