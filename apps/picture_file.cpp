@@ -36,13 +36,25 @@ void draw_on(cairo_surface_t* surface, const PictureContent& content, const Pict
     require(cairo_status(context.get()));
 }
 
+CairoSurface image_of(const PictureContent& content, const PictureLayout& layout) {
+    CairoSurface surface(
+        cairo_image_surface_create(CAIRO_FORMAT_RGB24, layout.size.width, layout.size.height));
+    draw_on(surface.get(), content, layout, 1);
+    return surface;
+}
+
 }  // namespace
 
-PictureFormat picture_format(const std::string& path) {
+std::string extension_of(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), [](char letter) {
         return letter >= 'A' && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
     });
+    return extension;
+}
+
+PictureFormat picture_format(const std::string& path) {
+    const std::string extension = extension_of(path);
     if (extension == ".png") return PictureFormat::kPng;
     if (extension == ".svg") return PictureFormat::kSvg;
     throw std::invalid_argument(fmt::format("unknown picture format '{}' (known: .png, .svg)", extension));
@@ -63,15 +75,25 @@ PictureSize parse_picture_size(const std::string& text) {
                                             text, kSmallestSide, kLargestSide));
 }
 
+PictureLayout picture_layout(const PictureContent& content, const std::optional<PictureSize>& size) {
+    const Box view = view_of(content);
+    return {view, size ? *size : default_size(view)};
+}
+
+std::string picture_pixels(const PictureContent& content, const PictureLayout& layout) {
+    const CairoSurface surface = image_of(content, layout);
+    cairo_surface_flush(surface.get());
+    // Rows of RGB24 have no gaps: four bytes a pixel are what cairo aligns them to.
+    const auto* const data = reinterpret_cast<const char*>(cairo_image_surface_get_data(surface.get()));
+    return {data, 4 * std::size_t(layout.size.width) * std::size_t(layout.size.height)};
+}
+
 std::string render_picture(const PictureContent& content, PictureFormat format,
                            const std::optional<PictureSize>& size) {
-    const Box view = view_of(content);
-    const PictureLayout layout(view, size ? *size : default_size(view));
+    const PictureLayout layout = picture_layout(content, size);
     std::string bytes;
     if (format == PictureFormat::kPng) {
-        const CairoSurface surface(
-            cairo_image_surface_create(CAIRO_FORMAT_RGB24, layout.size.width, layout.size.height));
-        draw_on(surface.get(), content, layout, 1);
+        const CairoSurface surface = image_of(content, layout);
         require(cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes));
     } else {
         const CairoSurface surface(

@@ -11,12 +11,23 @@ namespace carom::app {
 
 enum class PictureFormat : std::uint8_t { kPng, kSvg };
 
+/// The path's extension with its dot, in small letters.
+[[nodiscard]] std::string extension_of(const std::string& path);
+
 /// The format that the path's extension names, in any case of letters. Throws std::invalid_argument that
 /// names the extension and the known ones.
 [[nodiscard]] PictureFormat picture_format(const std::string& path);
 
 /// "1200x900". Throws std::invalid_argument that says what is allowed.
 [[nodiscard]] PictureSize parse_picture_size(const std::string& text);
+
+/// Where things go in a picture of the size, or where there is none of default_size of the view.
+[[nodiscard]] PictureLayout picture_layout(const PictureContent& content,
+                                           const std::optional<PictureSize>& size);
+
+/// The picture's pixels, rows from the top, each a native 32-bit number 0x??RRGGBB, no gaps. Throws
+/// std::runtime_error when cairo cannot.
+[[nodiscard]] std::string picture_pixels(const PictureContent& content, const PictureLayout& layout);
 
 /// The file's bytes; where no size is given, default_size of the view. Throws std::runtime_error when cairo
 /// cannot (out of memory).

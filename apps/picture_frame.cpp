@@ -86,7 +86,7 @@ std::string shortened(cairo_t* context, std::string text, double width) {
 }
 
 Boundary side_kind(const PictureContent& content, std::size_t axis) {
-    return content.domain ? content.domain->boundary[axis] : Boundary::kOpen;
+    return content.domain && !content.view ? content.domain->boundary[axis] : Boundary::kOpen;
 }
 
 void draw_side(cairo_t* context, const Vec2& from, const Vec2& to, Boundary kind, double unit) {
@@ -175,7 +175,8 @@ void draw_frame(cairo_t* context, const PictureContent& content, const PictureLa
     draw_ticks(context, layout);
 }
 
-void draw_legend(cairo_t* context, const PictureLayout& layout, double speed_scale, bool has_faster) {
+void draw_legend(cairo_t* context, const PictureLayout& layout, const Colouring& colouring) {
+    if (colouring.by == ColourBy::kDomain) return;  // a colour is a name there, not a number
     const double unit = layout.unit;
     const double left = layout.right + 28 * unit;
     const double width = 14 * unit;
@@ -193,7 +194,7 @@ void draw_legend(cairo_t* context, const PictureLayout& layout, double speed_sca
     cairo_set_source(context, colours.get());
     cairo_rectangle(context, left, top, width, bottom - top);
     cairo_fill(context);
-    if (has_faster) {  // a point on top: the colour of the end stands for everything beyond it, too
+    if (colouring.has_more) {  // a point on top: the colour of the end stands for everything beyond it, too
         set_colour(context, map_colour(1));
         cairo_move_to(context, left, top);
         cairo_line_to(context, left + width / 2, top - 11 * unit);
@@ -203,14 +204,16 @@ void draw_legend(cairo_t* context, const PictureLayout& layout, double speed_sca
     }
 
     select_font(context, 13 * unit);
-    const Ticks ticks = nice_ticks(0, speed_scale, std::max(1, int((bottom - top) / (70 * unit))));
+    const Ticks ticks =
+        nice_ticks(colouring.low, colouring.high, std::max(1, int((bottom - top) / (70 * unit))));
     for (const double value : ticks.values) {
-        const double y = bottom - (bottom - top) * value / speed_scale;
+        const double y = bottom - (bottom - top) * colouring.fraction_of(value);
         draw_tick(context, {left + width, y}, {left + width + 5 * unit, y}, unit);
         draw_text(context, tick_label(value, ticks.step), left + width + 10 * unit, y + 4.5 * unit,
                   Align::kLeft);
     }
-    draw_text(context, "speed", left, bottom + 20 * unit, Align::kLeft);
+    draw_text(context, colouring.by == ColourBy::kSize ? "radius" : name_of(colouring.by), left,
+              bottom + 20 * unit, Align::kLeft);
 }
 
 void draw_title(cairo_t* context, const PictureContent& content, const PictureLayout& layout) {

@@ -55,8 +55,8 @@ TEST(Program, WrongUsageIsOneLineAndStatusTwo) {
                      "unknown format '.h5'");
     expect_one_error(folder.run({"run", "s.json", "--picture", "p.mp4"}), 2,
                      "unknown picture format '.mp4' (known: .png, .svg)");
-    expect_one_error(folder.run({"render", "s.json", "--out", "p.mp4"}), 2,
-                     "unknown picture format '.mp4' (known: .png, .svg)");
+    expect_one_error(folder.run({"render", "s.json", "--out", "p.avi"}), 2,
+                     "unknown format '.avi' (known: .png, .svg, .mp4, .gif)");
     expect_one_error(folder.run({"render", "s.json"}), 2, "--out");
     expect_one_error(folder.run({"render", "s.json", "--out", "p.png", "--size", "big"}), 2, "'big'");
     expect_one_error(folder.run({"run", "s.json", "--summary", "./s.json"}), 2, "overwrite the scene");
