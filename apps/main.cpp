@@ -21,6 +21,8 @@ constexpr const char* kFooter = R"(Examples:
   carom run box.json                           Simulate it; the summary goes to standard output
   carom run box.json --picture end.png         ... and draw the end
   carom render box.json --out start.svg        Draw it as it starts
+  carom render box.json --out box.mp4          A movie of it
+  carom view box.json                          Watch it in a window
 
 'carom COMMAND --help' says more of each command.
 Exit status: 0 good, 1 a scene, an input or an output is wrong, 2 wrong usage, 130 interrupted.)";
@@ -56,6 +58,7 @@ int run_program(int argc, char** argv) {
     add_run_command(app, status);
     add_validate_command(app, status);
     add_render_command(app, status);
+    add_view_command(app, status);
     try {
         require_command(app, argc, argv);
         app.parse(argc, argv);

@@ -138,7 +138,7 @@ CLI::Option* add_method_option(CLI::App& command, const std::string& name, std::
     return add_word_option(command, name, method, {Method::kEvent, Method::kEmpirical}, description);
 }
 
-void add_colour_options(CLI::App& command, PictureLook& look) {
+void add_colour_by_option(CLI::App& command, ColourBy& colour_by) {
     std::map<std::string, ColourBy> words;
     std::string all;
     for (const ColourBy by : kAllColourBy) {
@@ -147,10 +147,14 @@ void add_colour_options(CLI::App& command, PictureLook& look) {
     }
     command
         .add_option_function<std::string>(
-            "--colour-by", [&look, words](const std::string& word) { look.colour_by = words.at(word); },
+            "--colour-by", [&colour_by, words](const std::string& word) { colour_by = words.at(word); },
             "What the balls' colours show (default: speed); domain: how the work is cut")
         ->option_text(all)
         ->check(CLI::IsMember(words));
+}
+
+void add_colour_options(CLI::App& command, PictureLook& look) {
+    add_colour_by_option(command, look.colour_by);
     command
         .add_option("--colour-top", look.colour_top,
                     "Speed, radius or count at the colours' upper end; without it the 99th percentile")

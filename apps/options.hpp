@@ -46,6 +46,8 @@ CLI::Option* add_precision_option(CLI::App& command, const std::string& name,
 CLI::Option* add_method_option(CLI::App& command, const std::string& name, std::optional<Method>& method,
                                const std::string& description);
 
+/// Adds --colour-by.
+void add_colour_by_option(CLI::App& command, ColourBy& colour_by);
 /// Adds --colour-by and --colour-top.
 void add_colour_options(CLI::App& command, PictureLook& look);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
@@ -41,6 +42,12 @@ CairoSurface image_of(const PictureContent& content, const PictureLayout& layout
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, layout.size.width, layout.size.height));
     draw_on(surface.get(), content, layout, 1);
     return surface;
+}
+
+std::string png_of(cairo_surface_t* surface) {
+    std::string bytes;
+    require(cairo_surface_write_to_png_stream(surface, append_bytes, &bytes));
+    return bytes;
 }
 
 }  // namespace
@@ -88,13 +95,22 @@ std::string picture_pixels(const PictureContent& content, const PictureLayout& l
     return {data, 4 * std::size_t(layout.size.width) * std::size_t(layout.size.height)};
 }
 
+std::string png_of_pixels(const std::uint32_t* pixels, int width, int height) {
+    const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+    require(cairo_surface_status(surface.get()));
+    const std::size_t size = 4 * std::size_t(width) * std::size_t(height);
+    std::memcpy(cairo_image_surface_get_data(surface.get()), pixels, size);
+    cairo_surface_mark_dirty(surface.get());
+    return png_of(surface.get());
+}
+
 std::string render_picture(const PictureContent& content, PictureFormat format,
                            const std::optional<PictureSize>& size) {
     const PictureLayout layout = picture_layout(content, size);
     std::string bytes;
     if (format == PictureFormat::kPng) {
         const CairoSurface surface = image_of(content, layout);
-        require(cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes));
+        bytes = png_of(surface.get());
     } else {
         const CairoSurface surface(
             cairo_svg_surface_create_for_stream(append_bytes, &bytes, layout.size.width, layout.size.height));

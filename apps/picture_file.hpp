@@ -29,6 +29,9 @@ enum class PictureFormat : std::uint8_t { kPng, kSvg };
 /// std::runtime_error when cairo cannot.
 [[nodiscard]] std::string picture_pixels(const PictureContent& content, const PictureLayout& layout);
 
+/// The bytes of a PNG file of such pixels.
+[[nodiscard]] std::string png_of_pixels(const std::uint32_t* pixels, int width, int height);
+
 /// The file's bytes; where no size is given, default_size of the view. Throws std::runtime_error when cairo
 /// cannot (out of memory).
 [[nodiscard]] std::string render_picture(const PictureContent& content, PictureFormat format,

@@ -82,15 +82,6 @@ class Canvas {
     std::vector<Pixel> pixels_;
 };
 
-// cairo's ARGB32: premultiplied, one native 32-bit number.
-std::uint32_t argb(const Colour& colour, double alpha) {
-    const auto byte = [](double value) {
-        return std::uint32_t(std::lround(255 * std::clamp(value, 0.0, 1.0)));
-    };
-    return byte(alpha) << 24U | byte(colour.red * alpha) << 16U | byte(colour.green * alpha) << 8U |
-           byte(colour.blue * alpha);
-}
-
 std::uint32_t pixel_colour(const Pixel& pixel, const Colouring& colouring) {
     const double total = double(pixel.covered) + double(pixel.covered_static);
     if (!(total > 0)) return 0;
@@ -102,7 +93,7 @@ std::uint32_t pixel_colour(const Pixel& pixel, const Colouring& colouring) {
     // Thin clouds of small balls would sink into the ground: the strength grows a little faster than the
     // area.
     constexpr double kStrengthPower = 0.75;
-    return argb(colour, std::pow(std::min(total, 1.0), kStrengthPower));
+    return pixel_of(colour, std::pow(std::min(total, 1.0), kStrengthPower));
 }
 
 void copy_to_surface(const Canvas& canvas, cairo_surface_t* surface, const Colouring& colouring) {
