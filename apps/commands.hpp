@@ -16,6 +16,7 @@ inline constexpr int kInterrupted =
 void add_run_command(CLI::App& app, int& status);
 void add_validate_command(CLI::App& app, int& status);
 void add_render_command(CLI::App& app, int& status);
+void add_plot_command(CLI::App& app, int& status);
 void add_view_command(CLI::App& app, int& status);
 
 }  // namespace carom::app

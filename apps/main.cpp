@@ -22,6 +22,7 @@ constexpr const char* kFooter = R"(Examples:
   carom run box.json --picture end.png         ... and draw the end
   carom render box.json --out start.svg        Draw it as it starts
   carom render box.json --out box.mp4          A movie of it
+  carom plot box.json --out box.svg            Energy, pressure, g(r), speeds
   carom view box.json                          Watch it in a window
 
 'carom COMMAND --help' says more of each command.
@@ -59,6 +60,7 @@ int run_program(int argc, char** argv) {
     add_validate_command(app, status);
     add_render_command(app, status);
     add_view_command(app, status);
+    add_plot_command(app, status);
     try {
         require_command(app, argc, argv);
         app.parse(argc, argv);

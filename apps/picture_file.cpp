@@ -29,18 +29,17 @@ void require(cairo_status_t status) {
     }
 }
 
-void draw_on(cairo_surface_t* surface, const PictureContent& content, const PictureLayout& layout,
-             double pixels_per_unit) {
+void draw_on(cairo_surface_t* surface, const std::function<void(cairo_t*)>& draw) {
     require(cairo_surface_status(surface));
     const CairoContext context(cairo_create(surface));
-    draw_picture(context.get(), content, layout, pixels_per_unit);
+    draw(context.get());
     require(cairo_status(context.get()));
 }
 
 CairoSurface image_of(const PictureContent& content, const PictureLayout& layout) {
     CairoSurface surface(
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, layout.size.width, layout.size.height));
-    draw_on(surface.get(), content, layout, 1);
+    draw_on(surface.get(), [&](cairo_t* context) { draw_picture(context, content, layout, 1); });
     return surface;
 }
 
@@ -104,21 +103,29 @@ std::string png_of_pixels(const std::uint32_t* pixels, int width, int height) {
     return png_of(surface.get());
 }
 
+std::string render_with_cairo(PictureFormat format, PictureSize size,
+                              const std::function<void(cairo_t*)>& draw) {
+    if (format == PictureFormat::kPng) {
+        const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, size.width, size.height));
+        draw_on(surface.get(), draw);
+        return png_of(surface.get());
+    }
+    std::string bytes;
+    const CairoSurface surface(
+        cairo_svg_surface_create_for_stream(append_bytes, &bytes, size.width, size.height));
+    draw_on(surface.get(), draw);
+    cairo_surface_finish(surface.get());
+    require(cairo_surface_status(surface.get()));
+    return bytes;
+}
+
 std::string render_picture(const PictureContent& content, PictureFormat format,
                            const std::optional<PictureSize>& size) {
     const PictureLayout layout = picture_layout(content, size);
-    std::string bytes;
-    if (format == PictureFormat::kPng) {
-        const CairoSurface surface = image_of(content, layout);
-        bytes = png_of(surface.get());
-    } else {
-        const CairoSurface surface(
-            cairo_svg_surface_create_for_stream(append_bytes, &bytes, layout.size.width, layout.size.height));
-        draw_on(surface.get(), content, layout, kSvgPixelsPerUnit);
-        cairo_surface_finish(surface.get());
-        require(cairo_surface_status(surface.get()));
-    }
-    return bytes;
+    const double pixels_per_unit = format == PictureFormat::kPng ? 1 : kSvgPixelsPerUnit;
+    return render_with_cairo(format, layout.size, [&](cairo_t* context) {
+        draw_picture(context, content, layout, pixels_per_unit);
+    });
 }
 
 }  // namespace carom::app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -31,6 +32,10 @@ enum class PictureFormat : std::uint8_t { kPng, kSvg };
 
 /// The bytes of a PNG file of such pixels.
 [[nodiscard]] std::string png_of_pixels(const std::uint32_t* pixels, int width, int height);
+
+/// The bytes of a file of what `draw` draws. Throws std::runtime_error when cairo cannot.
+[[nodiscard]] std::string render_with_cairo(PictureFormat format, PictureSize size,
+                                            const std::function<void(cairo_t*)>& draw);
 
 /// The file's bytes; where no size is given, default_size of the view. Throws std::runtime_error when cairo
 /// cannot (out of memory).

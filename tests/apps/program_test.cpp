@@ -29,8 +29,13 @@ TEST(Program, HelpAndVersion) {
     const Folder folder;
     EXPECT_THAT(folder.run({"--version"}).out, StartsWith("carom 0."));
     EXPECT_EQ(folder.run({"--version"}).status, 0);
-    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-             {"--help"}, {"run", "--help"}, {"validate", "--help"}, {"render", "--help"}}) {
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"--help"},
+                                               {"run", "--help"},
+                                               {"validate", "--help"},
+                                               {"render", "--help"},
+                                               {"view", "--help"},
+                                               {"plot", "--help"}}) {
         const Result result = folder.run(arguments);
         EXPECT_EQ(result.status, 0);
         EXPECT_EQ(result.err, "");

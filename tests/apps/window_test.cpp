@@ -119,7 +119,8 @@ TEST(Window, AScreensaverHasNoPanelAndBeginsAnewAtTheEnd) {
 
 TEST(Window, MistakesAreOneLine) {
     const Screen screen;
-    expect_one_error(screen.view({"--frames", "1", "--pick", "1"}), 1, "--pick: must be below 1, the number of balls");
+    expect_one_error(screen.view({"--frames", "1", "--pick", "1"}), 1,
+                     "--pick: must be below 1, the number of balls");
     expect_one_error(screen.view({"--screenshot", "w.png"}), 2, "--frames");
     expect_one_error(screen.view({"--frames", "1", "--screenshot", "s.json"}), 2, "overwrite the scene");
     expect_one_error(screen.folder.run({"view", "none.json", "--frames", "1"}), 1, "none.json");
