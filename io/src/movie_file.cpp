@@ -29,10 +29,10 @@ void append(Words& words, const Words& more) {
 
 Words encoder_words(MovieFormat format) {
     if (format == MovieFormat::kGif) {
-        // A palette of its own for every frame: one for all of them could be made only after the last.
+        // The palette is the first frame's, so that ffmpeg need not keep the whole movie to make one. A
+        // picture holds its colours' whole range from the start, in its legend.
         return {"-filter_complex",
-                "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none", "-f",
-                "gif"};
+                "split[a][b];[a]trim=end_frame=1,palettegen[p];[b][p]paletteuse=dither=none", "-f", "gif"};
     }
     // Sides padded to even ones and colours that every player knows; the index first, so that a browser can
     // begin before it has all.
