@@ -1,6 +1,8 @@
 // Frame by frame: advance, draw, hand over.
 #include "movie.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 
 #include "picture_file.hpp"
@@ -15,6 +17,11 @@ PictureLook fixed_look(const Scene& scene, const World& world, PictureLook look)
 }
 
 }  // namespace
+
+int time_digits(const MovieTimes& times) {
+    constexpr int kUsual = 6;
+    return std::clamp(int(std::ceil(std::log10(times.until / times.step()))) + 1, kUsual, 17);
+}
 
 double ColourTop::next(double top) {
     top_ = top_ < 0 ? top : top_ + share_ * (top - top_);
@@ -37,6 +44,7 @@ bool write_movie(World& world, const Scene& scene, const MovieTimes& times, cons
     for (Multiples frames(times.step(), times.until - times.from); frames.next(); frames.advance()) {
         if (!driver.advance_to(times.from + *frames.next())) return false;
         PictureContent content = picture_of(scene, world, look, tally);
+        content.time_digits = time_digits(times);
         if (!look.colour_top) {
             const Colouring own = colouring_of(content.balls, content.colour_by, content.numbers);
             content.colour_top = top.next(own.high);

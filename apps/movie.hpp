@@ -25,6 +25,9 @@ struct MovieTimes {
     [[nodiscard]] double step() const { return speed / frames_per_second; }
 };
 
+/// Digits of the time in the title, so that each frame's differs from the one before.
+[[nodiscard]] int time_digits(const MovieTimes& times);
+
 /// The colours' upper end in a movie: where it is not given it follows the balls, smoothly, so that it does
 /// not flicker.
 class ColourTop {

@@ -20,6 +20,7 @@ namespace carom::app {
 struct PictureContent {
     std::string title;
     double time = 0;
+    int time_digits = 6;           ///< of the time in the title
     std::optional<Domain> domain;  ///< where absent the view is what holds everything
     std::vector<Ball> balls;
     std::vector<Wall> walls;

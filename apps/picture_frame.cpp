@@ -148,8 +148,8 @@ void draw_title(cairo_t* context, const PictureContent& content, const PictureLa
               layout.top - 38 * unit, Align::kLeft);
 
     const std::size_t count = content.balls.size();
-    std::string line = fmt::format("t = {:.6g}  \u00b7  {} ball{}", content.time, with_thousands(count),
-                                   count == 1 ? "" : "s");
+    std::string line = fmt::format("t = {:.{}g}  \u00b7  {} ball{}", content.time, content.time_digits,
+                                   with_thousands(count), count == 1 ? "" : "s");
     if (const std::size_t outside = count_outside(content.balls, layout.view); outside > 0) {
         line += fmt::format("  \u00b7  {} outside", with_thousands(outside));
     }
