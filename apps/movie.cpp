@@ -41,8 +41,9 @@ bool write_movie(World& world, const Scene& scene, const MovieTimes& times, cons
     MovieFile movie(out, {format, layout.size.width, layout.size.height, times.frames_per_second});
     if (!driver.advance_to(times.from)) return false;
     ColourTop top(times.frames_per_second);
-    for (Multiples frames(times.step(), times.until - times.from); frames.next(); frames.advance()) {
-        if (!driver.advance_to(times.from + *frames.next())) return false;
+    Multiples frames(times.step(), times.until - times.from);
+    for (; const std::optional<double> since = frames.next(); frames.advance()) {
+        if (!driver.advance_to(times.from + *since)) return false;
         PictureContent content = picture_of(scene, world, look, tally);
         content.time_digits = time_digits(times);
         if (!look.colour_top) {
