@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace carom::app {
@@ -33,6 +34,14 @@ constexpr std::array<Colour, 16> kViridis = {{
 Colour mix(const Colour& a, const Colour& b, double share_of_b) {
     return {a.red + share_of_b * (b.red - a.red), a.green + share_of_b * (b.green - a.green),
             a.blue + share_of_b * (b.blue - a.blue)};
+}
+
+std::uint32_t pixel_of(const Colour& colour, double alpha) {
+    const auto byte = [](double value) {
+        return std::uint32_t(std::lround(255 * std::clamp(value, 0.0, 1.0)));
+    };
+    return byte(alpha) << 24U | byte(colour.red * alpha) << 16U | byte(colour.green * alpha) << 8U |
+           byte(colour.blue * alpha);
 }
 
 Colour map_colour(double fraction) {

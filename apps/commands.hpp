@@ -18,5 +18,7 @@ void add_validate_command(CLI::App& app, int& status);
 void add_render_command(CLI::App& app, int& status);
 void add_stress_command(CLI::App& app, int& status);
 void add_advise_command(CLI::App& app, int& status);
+void add_plot_command(CLI::App& app, int& status);
+void add_view_command(CLI::App& app, int& status);
 
 }  // namespace carom::app

@@ -23,6 +23,9 @@ constexpr const char* kFooter = R"(Examples:
   carom run box.json --picture end.png         ... and draw the end
   carom render box.json --out start.svg        Draw it as it starts
   carom advise box.json --error 1e-3           Which setting is the fastest that keeps this error?
+  carom render box.json --out box.mp4          A movie of it
+  carom plot box.json --out box.svg            Energy, pressure, g(r), speeds
+  carom view box.json                          Watch it in a window
 
 'carom COMMAND --help' says more of each command.
 Exit status: 0 good, 1 a scene, an input or an output is wrong, 2 wrong usage, 130 interrupted.)";
@@ -60,6 +63,8 @@ int run_program(int argc, char** argv) {
     add_render_command(app, status);
     add_stress_command(app, status);
     add_advise_command(app, status);
+    add_view_command(app, status);
+    add_plot_command(app, status);
     try {
         require_command(app, argc, argv);
         app.parse(argc, argv);

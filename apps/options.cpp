@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <exception>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <carom/io/trajectory.hpp>
 
@@ -71,6 +73,42 @@ CLI::Validator picture_path() {
     return parse_check([](const std::string& text) { (void)picture_format(text); });
 }
 
+CLI::Validator picture_or_movie_path() {
+    return parse_check([](const std::string& text) {
+        if (movie_format(text)) return;
+        try {
+            (void)picture_format(text);
+        } catch (const std::invalid_argument&) {
+            throw std::invalid_argument(
+                fmt::format("unknown format '{}' (known: .png, .svg, .mp4, .gif)", extension_of(text)));
+        }
+    });
+}
+
+std::optional<MovieFormat> movie_format(const std::string& path) {
+    const std::string extension = extension_of(path);
+    if (extension == ".mp4") return MovieFormat::kMp4;
+    if (extension == ".gif") return MovieFormat::kGif;
+    return std::nullopt;
+}
+
+Box parse_view(const std::string& text) {
+    std::array<double, 4> corners{};
+    std::vector<std::string> parts = CLI::detail::split(text, ',');
+    bool good = parts.size() == corners.size();
+    for (std::size_t i = 0; good && i < corners.size(); ++i)
+        good = CLI::detail::lexical_cast(parts[i], corners[i]) && std::isfinite(corners[i]);
+    const Box view{{std::min(corners[0], corners[2]), std::min(corners[1], corners[3])},
+                   {std::max(corners[0], corners[2]), std::max(corners[1], corners[3])}};
+    if (good && (view.max - view.min).minCoeff() > 0) return view;
+    throw std::invalid_argument(
+        fmt::format("'{}' is no view: X0,Y0,X1,Y1, two opposite corners of a rectangle", text));
+}
+
+CLI::Validator view_text() {
+    return parse_check([](const std::string& text) { (void)parse_view(text); });
+}
+
 CLI::Validator picture_size_text() {
     return parse_check([](const std::string& text) { (void)parse_picture_size(text); });
 }
@@ -104,6 +142,30 @@ CLI::Option* add_precision_option(CLI::App& command, const std::string& name,
 CLI::Option* add_method_option(CLI::App& command, const std::string& name, std::optional<Method>& method,
                                const std::string& description) {
     return add_word_option(command, name, method, {Method::kEvent, Method::kEmpirical}, description);
+}
+
+void add_colour_by_option(CLI::App& command, ColourBy& colour_by) {
+    std::map<std::string, ColourBy> words;
+    std::string all;
+    for (const ColourBy by : kAllColourBy) {
+        words[name_of(by)] = by;
+        all += (all.empty() ? "" : "|") + std::string(name_of(by));
+    }
+    command
+        .add_option_function<std::string>(
+            "--colour-by", [&colour_by, words](const std::string& word) { colour_by = words.at(word); },
+            "What the balls' colours show (default: speed); domain: how the work is cut")
+        ->option_text(all)
+        ->check(CLI::IsMember(words));
+}
+
+void add_colour_options(CLI::App& command, PictureLook& look) {
+    add_colour_by_option(command, look.colour_by);
+    command
+        .add_option("--colour-top", look.colour_top,
+                    "Speed, radius or count at the colours' upper end; without it the 99th percentile")
+        ->option_text("V")
+        ->check(positive_number());
 }
 
 void add_threads_option(CLI::App& command, int& threads) {

@@ -1,4 +1,4 @@
-// A picture's view, its speed scale, and the order of its layers.
+// A picture's view, and the order of its layers.
 #include "picture.hpp"
 
 #include <algorithm>
@@ -36,6 +36,7 @@ Box bounding_box(const PictureContent& content) {
 }  // namespace
 
 Box view_of(const PictureContent& content) {
+    if (content.view) return *content.view;
     if (content.domain) return content.domain->box;
     Box box = bounding_box(content);
     if (!(box.min.x() <= box.max.x())) return {{-1, -1}, {1, 1}};  // nothing there
@@ -45,18 +46,6 @@ Box view_of(const PictureContent& content) {
     // A row of tiny things still gets a band to stand in.
     const Vec2 grow = (Vec2(extent.array() + 2 * margin).cwiseMax(longer / 8) - extent) / 2;
     return {box.min - grow, box.max + grow};
-}
-
-double top_speed(const std::vector<Ball>& balls) {
-    std::vector<double> speeds;
-    speeds.reserve(balls.size());
-    for (const Ball& ball : balls) {
-        if (!ball.is_static) speeds.push_back(std::hypot(ball.velocity.x(), ball.velocity.y()));
-    }
-    if (speeds.empty()) return 0;
-    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * double(speeds.size()))) - 1;
-    std::nth_element(speeds.begin(), speeds.begin() + rank, speeds.end());
-    return speeds[static_cast<std::size_t>(rank)];
 }
 
 std::size_t count_outside(const std::vector<Ball>& balls, const Box& view) {
@@ -71,26 +60,22 @@ std::size_t count_outside(const std::vector<Ball>& balls, const Box& view) {
 
 void draw_picture(cairo_t* context, const PictureContent& content, const PictureLayout& layout,
                   double pixels_per_unit) {
-    const double fastest = top_speed(content.balls);
-    const double speed_scale = fastest > 0 ? fastest : 1;
-    const bool has_faster = std::any_of(content.balls.begin(), content.balls.end(), [&](const Ball& ball) {
-        return !ball.is_static && std::hypot(ball.velocity.x(), ball.velocity.y()) > speed_scale;
-    });
-
+    const Colouring colouring =
+        colouring_of(content.balls, content.colour_by, content.numbers, content.colour_top);
     draw_ground(context, layout);
     cairo_save(context);
     cairo_rectangle(context, layout.left, layout.top, layout.right - layout.left, layout.bottom - layout.top);
     cairo_clip(context);
     draw_attractors(context, content, layout);
     if (content.balls.size() <= kVectorBalls) {
-        draw_balls_singly(context, content, layout, speed_scale);
+        draw_balls_singly(context, content, layout, colouring);
     } else {
-        draw_balls_gathered(context, content, layout, speed_scale, pixels_per_unit);
+        draw_balls_gathered(context, content, layout, colouring, pixels_per_unit);
     }
     draw_walls(context, content, layout);
     cairo_restore(context);
     draw_frame(context, content, layout);
-    draw_legend(context, layout, speed_scale, has_faster);
+    draw_legend(context, layout, colouring);
     draw_title(context, content, layout);
 }
 

@@ -1,15 +1,17 @@
-// A still of a scene: balls coloured by speed, walls, static balls and attractors in a frame with ticks.
+// A still of a scene: coloured balls, walls, static balls and attractors in a frame with ticks.
 #pragma once
 
 #include <cairo.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <carom/core/scene.hpp>
 
+#include "colouring.hpp"
 #include "picture_layout.hpp"
 
 namespace carom::app {
@@ -18,27 +20,28 @@ namespace carom::app {
 struct PictureContent {
     std::string title;
     double time = 0;
+    int time_digits = 6;           ///< of the time in the title
     std::optional<Domain> domain;  ///< where absent the view is what holds everything
     std::vector<Ball> balls;
     std::vector<Wall> walls;
     std::vector<Attractor> attractors;
+    ColourBy colour_by = ColourBy::kSpeed;
+    std::vector<std::uint32_t> numbers;  ///< collisions or domains, one a ball, where the colours show them
+    std::optional<double> colour_top;  ///< value at the colours' upper end; where absent it follows the balls
+    std::optional<Box> view;           ///< shown instead of the domain
 };
 
-/// The rectangle that the picture shows: the domain, or where there is none a box around everything with a
-/// margin.
+/// The rectangle that the picture shows: the content's view, or the domain, or where there is none a box
+/// around everything with a margin.
 [[nodiscard]] Box view_of(const PictureContent& content);
-
-/// The speed at the upper end of the colours: the 99th percentile of the moving balls' speeds, so that a few
-/// fast ones do not take the colours from the rest; 0 where nothing moves.
-[[nodiscard]] double top_speed(const std::vector<Ball>& balls);
 
 /// How many balls lie wholly outside the view.
 [[nodiscard]] std::size_t count_outside(const std::vector<Ball>& balls, const Box& view);
 
 /// Draws the picture over the context's whole surface of `layout.size` units. Up to kVectorBalls balls become
 /// discs of the surface's own kind; more are gathered into an image of `pixels_per_unit` pixels a unit, in
-/// which a pixel's colour is the mean speed of the balls in it and its strength follows the area they cover.
-/// Takes time in proportion to the balls and the pixels.
+/// which a pixel's colour is of the mean value of the balls in it and its strength follows the area they
+/// cover. Takes time in proportion to the balls and the pixels.
 void draw_picture(cairo_t* context, const PictureContent& content, const PictureLayout& layout,
                   double pixels_per_unit);
 

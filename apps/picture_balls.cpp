@@ -16,10 +16,6 @@ namespace {
 // all out of sight.
 constexpr double kLargestHatched = 1e5;
 
-double speed_of(const Ball& ball) {
-    return std::hypot(ball.velocity.x(), ball.velocity.y());
-}
-
 // False also for what is no number. cairo's coordinates are 24 bits wide and wrap beyond.
 bool meets_frame(const PictureLayout& layout, const Vec2& centre, double radius) {
     return centre.x() + radius > layout.left && centre.x() - radius < layout.right &&
@@ -77,10 +73,9 @@ void draw_moving_ball(cairo_t* context, const Vec2& centre, double radius, doubl
     cairo_stroke(context);
 }
 
-// A line from the centre towards where the ball goes; its length is the speed's share of the scale.
-void draw_heading(cairo_t* context, const Vec2& centre, double radius, const Vec2& velocity,
-                  double speed_scale) {
-    const Vec2 along = velocity * (0.82 * radius / std::max(speed_scale, velocity.norm()));
+// A line from the centre towards where the ball goes; its length is the speed's share of the top speed.
+void draw_heading(cairo_t* context, const Vec2& centre, double radius, const Vec2& velocity, double top) {
+    const Vec2 along = velocity * (0.82 * radius / std::max(top, velocity.norm()));
     if (along.norm() < 2) return;
     cairo_new_path(context);
     cairo_move_to(context, centre.x(), centre.y());
@@ -126,21 +121,22 @@ void draw_attractors(cairo_t* context, const PictureContent& content, const Pict
 }
 
 void draw_balls_singly(cairo_t* context, const PictureContent& content, const PictureLayout& layout,
-                       double speed_scale) {
-    for (const Ball& ball : content.balls) {
+                       const Colouring& colouring) {
+    const double top = top_speed(content.balls);
+    for (std::size_t i = 0; i < content.balls.size(); ++i) {
+        const Ball& ball = content.balls[i];
         // A ball too small to see is drawn as a dot rather than as nothing.
         const double radius = std::max(ball.radius * layout.scale, 0.4 * layout.unit);
-        for_each_image(content, layout, ball, [&](const Vec2& position) {
+        for_each_image(content.domain, ball, [&](const Vec2& position) {
             const Vec2 centre = layout.to_pixel(position);
             if (!meets_frame(layout, centre, radius)) return;
             if (ball.is_static) {
                 draw_static_ball(context, centre, radius, layout.unit);
                 return;
             }
-            const double speed = speed_of(ball);
-            draw_moving_ball(context, centre, radius, layout.unit, map_colour(speed / speed_scale));
-            if (radius > 7 * layout.unit && speed > 0) {
-                draw_heading(context, centre, radius, ball.velocity, speed_scale);
+            draw_moving_ball(context, centre, radius, layout.unit, colouring.colour_of(i));
+            if (radius > 7 * layout.unit && !ball.velocity.isZero(0)) {
+                draw_heading(context, centre, radius, ball.velocity, top);
             }
         });
     }

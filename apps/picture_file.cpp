@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
@@ -28,21 +29,38 @@ void require(cairo_status_t status) {
     }
 }
 
-void draw_on(cairo_surface_t* surface, const PictureContent& content, const PictureLayout& layout,
-             double pixels_per_unit) {
+void draw_on(cairo_surface_t* surface, const std::function<void(cairo_t*)>& draw) {
     require(cairo_surface_status(surface));
     const CairoContext context(cairo_create(surface));
-    draw_picture(context.get(), content, layout, pixels_per_unit);
+    draw(context.get());
     require(cairo_status(context.get()));
+}
+
+CairoSurface image_of(const PictureContent& content, const PictureLayout& layout) {
+    CairoSurface surface(
+        cairo_image_surface_create(CAIRO_FORMAT_RGB24, layout.size.width, layout.size.height));
+    draw_on(surface.get(), [&](cairo_t* context) { draw_picture(context, content, layout, 1); });
+    return surface;
+}
+
+std::string png_of(cairo_surface_t* surface) {
+    std::string bytes;
+    require(cairo_surface_write_to_png_stream(surface, append_bytes, &bytes));
+    return bytes;
 }
 
 }  // namespace
 
-PictureFormat picture_format(const std::string& path) {
+std::string extension_of(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), [](char letter) {
         return letter >= 'A' && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
     });
+    return extension;
+}
+
+PictureFormat picture_format(const std::string& path) {
+    const std::string extension = extension_of(path);
     if (extension == ".png") return PictureFormat::kPng;
     if (extension == ".svg") return PictureFormat::kSvg;
     throw std::invalid_argument(fmt::format("unknown picture format '{}' (known: .png, .svg)", extension));
@@ -63,24 +81,51 @@ PictureSize parse_picture_size(const std::string& text) {
                                             text, kSmallestSide, kLargestSide));
 }
 
+PictureLayout picture_layout(const PictureContent& content, const std::optional<PictureSize>& size) {
+    const Box view = view_of(content);
+    return {view, size ? *size : default_size(view)};
+}
+
+std::string picture_pixels(const PictureContent& content, const PictureLayout& layout) {
+    const CairoSurface surface = image_of(content, layout);
+    cairo_surface_flush(surface.get());
+    // Rows of RGB24 have no gaps: four bytes a pixel are what cairo aligns them to.
+    const auto* const data = reinterpret_cast<const char*>(cairo_image_surface_get_data(surface.get()));
+    return {data, 4 * std::size_t(layout.size.width) * std::size_t(layout.size.height)};
+}
+
+std::string png_of_pixels(const std::uint32_t* pixels, int width, int height) {
+    const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+    require(cairo_surface_status(surface.get()));
+    const std::size_t size = 4 * std::size_t(width) * std::size_t(height);
+    std::memcpy(cairo_image_surface_get_data(surface.get()), pixels, size);
+    cairo_surface_mark_dirty(surface.get());
+    return png_of(surface.get());
+}
+
+std::string render_with_cairo(PictureFormat format, PictureSize size,
+                              const std::function<void(cairo_t*)>& draw) {
+    if (format == PictureFormat::kPng) {
+        const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, size.width, size.height));
+        draw_on(surface.get(), draw);
+        return png_of(surface.get());
+    }
+    std::string bytes;
+    const CairoSurface surface(
+        cairo_svg_surface_create_for_stream(append_bytes, &bytes, size.width, size.height));
+    draw_on(surface.get(), draw);
+    cairo_surface_finish(surface.get());
+    require(cairo_surface_status(surface.get()));
+    return bytes;
+}
+
 std::string render_picture(const PictureContent& content, PictureFormat format,
                            const std::optional<PictureSize>& size) {
-    const Box view = view_of(content);
-    const PictureLayout layout(view, size ? *size : default_size(view));
-    std::string bytes;
-    if (format == PictureFormat::kPng) {
-        const CairoSurface surface(
-            cairo_image_surface_create(CAIRO_FORMAT_RGB24, layout.size.width, layout.size.height));
-        draw_on(surface.get(), content, layout, 1);
-        require(cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes));
-    } else {
-        const CairoSurface surface(
-            cairo_svg_surface_create_for_stream(append_bytes, &bytes, layout.size.width, layout.size.height));
-        draw_on(surface.get(), content, layout, kSvgPixelsPerUnit);
-        cairo_surface_finish(surface.get());
-        require(cairo_surface_status(surface.get()));
-    }
-    return bytes;
+    const PictureLayout layout = picture_layout(content, size);
+    const double pixels_per_unit = format == PictureFormat::kPng ? 1 : kSvgPixelsPerUnit;
+    return render_with_cairo(format, layout.size, [&](cairo_t* context) {
+        draw_picture(context, content, layout, pixels_per_unit);
+    });
 }
 
 }  // namespace carom::app

@@ -11,82 +11,13 @@
 #include "colour_map.hpp"
 #include "picture_palette.hpp"
 #include "picture_parts.hpp"
+#include "picture_text.hpp"
 
 namespace carom::app {
 namespace {
 
-enum class Align : std::uint8_t { kLeft, kCentre, kRight };
-
-void select_font(cairo_t* context, double size, bool bold = false) {
-    cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(context, size);
-}
-
-double text_width(cairo_t* context, const std::string& text) {
-    cairo_text_extents_t extents;
-    cairo_text_extents(context, text.c_str(), &extents);
-    return extents.x_advance;
-}
-
-void draw_text(cairo_t* context, const std::string& text, double x, double baseline, Align align) {
-    const double width = text_width(context, text);
-    const double shift = align == Align::kLeft ? 0 : align == Align::kCentre ? width / 2 : width;
-    cairo_move_to(context, x - shift, baseline);
-    cairo_show_text(context, text.c_str());
-}
-
-// The length of the UTF-8 sequence at `place`, 0 where there is none.
-std::size_t sequence_length(const std::string& text, std::size_t place) {
-    const auto byte = [&](std::size_t i) {
-        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-    };
-    const unsigned lead = byte(place);
-    if (lead < 0x80U) return 1;
-    const std::size_t length = lead >= 0xC2U && lead < 0xE0U   ? 2
-                               : (lead & 0xF0U) == 0xE0U       ? 3
-                               : lead >= 0xF0U && lead < 0xF5U ? 4
-                                                               : 0;
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(place + i) & 0xC0U) != 0x80U) return 0;
-    }
-    // The second byte tells overlong forms, surrogates and what lies beyond Unicode.
-    const unsigned second = byte(place + 1);
-    const bool wrong = (lead == 0xE0U && second < 0xA0U) || (lead == 0xEDU && second >= 0xA0U) ||
-                       (lead == 0xF0U && second < 0x90U) || (lead == 0xF4U && second >= 0x90U);
-    return wrong ? 0 : length;
-}
-
-// cairo refuses what is no UTF-8, and a file's name may be anything.
-std::string printable(const std::string& text) {
-    std::string clean;
-    for (std::size_t place = 0; place < text.size();) {
-        const std::size_t length = sequence_length(text, place);
-        const bool is_control = length == 1 && static_cast<unsigned char>(text[place]) < 0x20U;
-        if (length == 0) {
-            clean += "\ufffd";
-        } else if (is_control) {
-            clean += ' ';
-        } else {
-            clean.append(text, place, length);
-        }
-        place += std::max<std::size_t>(length, 1);
-    }
-    return clean;
-}
-
-// Cut at a character's start, never within a UTF-8 sequence.
-std::string shortened(cairo_t* context, std::string text, double width) {
-    if (text_width(context, text) <= width) return text;
-    while (!text.empty() && text_width(context, text + "\u2026") > width) {
-        while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) text.pop_back();
-        if (!text.empty()) text.pop_back();
-    }
-    return text + "\u2026";
-}
-
 Boundary side_kind(const PictureContent& content, std::size_t axis) {
-    return content.domain ? content.domain->boundary[axis] : Boundary::kOpen;
+    return content.domain && !content.view ? content.domain->boundary[axis] : Boundary::kOpen;
 }
 
 void draw_side(cairo_t* context, const Vec2& from, const Vec2& to, Boundary kind, double unit) {
@@ -107,14 +38,6 @@ void draw_side(cairo_t* context, const Vec2& from, const Vec2& to, Boundary kind
     cairo_line_to(context, to.x(), to.y());
     cairo_stroke(context);
     cairo_set_dash(context, nullptr, 0, 0);
-}
-
-void draw_tick(cairo_t* context, const Vec2& from, const Vec2& to, double unit) {
-    cairo_set_line_width(context, unit);
-    set_colour(context, palette::kFaintText);
-    cairo_move_to(context, from.x(), from.y());
-    cairo_line_to(context, to.x(), to.y());
-    cairo_stroke(context);
 }
 
 void draw_ticks(cairo_t* context, const PictureLayout& layout) {
@@ -175,7 +98,8 @@ void draw_frame(cairo_t* context, const PictureContent& content, const PictureLa
     draw_ticks(context, layout);
 }
 
-void draw_legend(cairo_t* context, const PictureLayout& layout, double speed_scale, bool has_faster) {
+void draw_legend(cairo_t* context, const PictureLayout& layout, const Colouring& colouring) {
+    if (colouring.by == ColourBy::kDomain) return;  // a colour is a name there, not a number
     const double unit = layout.unit;
     const double left = layout.right + 28 * unit;
     const double width = 14 * unit;
@@ -193,7 +117,7 @@ void draw_legend(cairo_t* context, const PictureLayout& layout, double speed_sca
     cairo_set_source(context, colours.get());
     cairo_rectangle(context, left, top, width, bottom - top);
     cairo_fill(context);
-    if (has_faster) {  // a point on top: the colour of the end stands for everything beyond it, too
+    if (colouring.has_more) {  // a point on top: the colour of the end stands for everything beyond it, too
         set_colour(context, map_colour(1));
         cairo_move_to(context, left, top);
         cairo_line_to(context, left + width / 2, top - 11 * unit);
@@ -203,14 +127,16 @@ void draw_legend(cairo_t* context, const PictureLayout& layout, double speed_sca
     }
 
     select_font(context, 13 * unit);
-    const Ticks ticks = nice_ticks(0, speed_scale, std::max(1, int((bottom - top) / (70 * unit))));
+    const Ticks ticks =
+        nice_ticks(colouring.low, colouring.high, std::max(1, int((bottom - top) / (70 * unit))));
     for (const double value : ticks.values) {
-        const double y = bottom - (bottom - top) * value / speed_scale;
+        const double y = bottom - (bottom - top) * colouring.fraction_of(value);
         draw_tick(context, {left + width, y}, {left + width + 5 * unit, y}, unit);
         draw_text(context, tick_label(value, ticks.step), left + width + 10 * unit, y + 4.5 * unit,
                   Align::kLeft);
     }
-    draw_text(context, "speed", left, bottom + 20 * unit, Align::kLeft);
+    draw_text(context, colouring.by == ColourBy::kSize ? "radius" : name_of(colouring.by), left,
+              bottom + 20 * unit, Align::kLeft);
 }
 
 void draw_title(cairo_t* context, const PictureContent& content, const PictureLayout& layout) {
@@ -222,8 +148,8 @@ void draw_title(cairo_t* context, const PictureContent& content, const PictureLa
               layout.top - 38 * unit, Align::kLeft);
 
     const std::size_t count = content.balls.size();
-    std::string line = fmt::format("t = {:.6g}  \u00b7  {} ball{}", content.time, with_thousands(count),
-                                   count == 1 ? "" : "s");
+    std::string line = fmt::format("t = {:.{}g}  \u00b7  {} ball{}", content.time, content.time_digits,
+                                   with_thousands(count), count == 1 ? "" : "s");
     if (const std::size_t outside = count_outside(content.balls, layout.view); outside > 0) {
         line += fmt::format("  \u00b7  {} outside", with_thousands(outside));
     }

@@ -1,4 +1,4 @@
-// Many balls in a picture: each adds its area to the pixels under it, and a pixel shows the mean speed of
+// Many balls in a picture: each adds its area to the pixels under it, and a pixel shows the mean value of
 // what covers it.
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 struct Pixel {
     float covered = 0;         // area under moving balls, of 1
     float covered_static = 0;  // area under static balls
-    float speed = 0;           // speed times area
+    float value = 0;           // what the colour stands for, times area
 };
 
 class Canvas {
@@ -27,7 +27,7 @@ class Canvas {
 
     // A disc at (x, y) of the canvas, y down, in pixels. The edge is one pixel soft, and the whole is scaled
     // to the disc's true area, so that discs smaller than a pixel weigh what they should.
-    void add_disc(double x, double y, double radius, bool is_static, float speed) {
+    void add_disc(double x, double y, double radius, bool is_static, float value) {
         const double soft = std::max(radius, 0.5) + 0.5;
         const int first_x = std::max(0, int(std::floor(x - soft))),
                   last_x = std::min(width_ - 1, int(std::floor(x + soft)));
@@ -37,7 +37,7 @@ class Canvas {
         for (int row = first_y; row <= last_y; ++row) {
             for (int column = first_x; column <= last_x; ++column) {
                 const double weight = weight_at(column + 0.5 - x, row + 0.5 - y, soft) * scale;
-                if (weight > 0) add(column, row, float(weight), is_static, speed);
+                if (weight > 0) add(column, row, float(weight), is_static, value);
             }
         }
     }
@@ -63,13 +63,13 @@ class Canvas {
         return sum > 0 ? std::numbers::pi * radius * radius / sum : 0;
     }
 
-    void add(int column, int row, float weight, bool is_static, float speed) {
+    void add(int column, int row, float weight, bool is_static, float value) {
         Pixel& pixel = pixels_[index(column, row)];
         if (is_static) {
             pixel.covered_static += weight;
         } else {
             pixel.covered += weight;
-            pixel.speed += weight * speed;
+            pixel.value += weight * value;
         }
     }
 
@@ -82,30 +82,21 @@ class Canvas {
     std::vector<Pixel> pixels_;
 };
 
-// cairo's ARGB32: premultiplied, one native 32-bit number.
-std::uint32_t argb(const Colour& colour, double alpha) {
-    const auto byte = [](double value) {
-        return std::uint32_t(std::lround(255 * std::clamp(value, 0.0, 1.0)));
-    };
-    return byte(alpha) << 24U | byte(colour.red * alpha) << 16U | byte(colour.green * alpha) << 8U |
-           byte(colour.blue * alpha);
-}
-
-std::uint32_t pixel_colour(const Pixel& pixel, double speed_scale) {
+std::uint32_t pixel_colour(const Pixel& pixel, const Colouring& colouring) {
     const double total = double(pixel.covered) + double(pixel.covered_static);
     if (!(total > 0)) return 0;
     Colour colour = palette::kStaticBall;
     if (pixel.covered > 0) {
-        const Colour moving = map_colour(double(pixel.speed) / double(pixel.covered) / speed_scale);
+        const Colour moving = map_colour(colouring.fraction_of(double(pixel.value) / double(pixel.covered)));
         colour = mix(moving, colour, double(pixel.covered_static) / total);
     }
     // Thin clouds of small balls would sink into the ground: the strength grows a little faster than the
     // area.
     constexpr double kStrengthPower = 0.75;
-    return argb(colour, std::pow(std::min(total, 1.0), kStrengthPower));
+    return pixel_of(colour, std::pow(std::min(total, 1.0), kStrengthPower));
 }
 
-void copy_to_surface(const Canvas& canvas, cairo_surface_t* surface, double speed_scale) {
+void copy_to_surface(const Canvas& canvas, cairo_surface_t* surface, const Colouring& colouring) {
     cairo_surface_flush(surface);
     unsigned char* bytes = cairo_image_surface_get_data(surface);
     const auto stride = std::size_t(cairo_image_surface_get_stride(surface));
@@ -113,7 +104,7 @@ void copy_to_surface(const Canvas& canvas, cairo_surface_t* surface, double spee
     for (int row = 0; row < cairo_image_surface_get_height(surface); ++row) {
         auto* line = reinterpret_cast<std::uint32_t*>(bytes + std::size_t(row) * stride);
         for (int column = 0; column < width; ++column)
-            line[column] = pixel_colour(canvas.at(column, row), speed_scale);
+            line[column] = pixel_colour(canvas.at(column, row), colouring);
     }
     cairo_surface_mark_dirty(surface);
 }
@@ -121,26 +112,26 @@ void copy_to_surface(const Canvas& canvas, cairo_surface_t* surface, double spee
 }  // namespace
 
 void draw_balls_gathered(cairo_t* context, const PictureContent& content, const PictureLayout& layout,
-                         double speed_scale, double pixels_per_unit) {
+                         const Colouring& colouring, double pixels_per_unit) {
     // The image starts on the frame's corner, which lies on a whole pixel, so that nothing is resampled.
     const int width = int(std::ceil((layout.right - layout.left) * pixels_per_unit));
     const int height = int(std::ceil((layout.bottom - layout.top) * pixels_per_unit));
     Canvas canvas(width, height);
-    for (const Ball& ball : content.balls) {
-        for_each_image(content, layout, ball, [&](const Vec2& position) {
+    for (std::size_t i = 0; i < content.balls.size(); ++i) {
+        const Ball& ball = content.balls[i];
+        for_each_image(content.domain, ball, [&](const Vec2& position) {
             if (!position.allFinite()) return;
             const Vec2 place = (layout.to_pixel(position) - Vec2{layout.left, layout.top}) * pixels_per_unit;
             const double radius = ball.radius * layout.scale * pixels_per_unit;
             // Compared as numbers: a place far outside does not fit an int.
             if (!(place.x() + radius > -1 && place.x() - radius < width + 1)) return;
             if (!(place.y() + radius > -1 && place.y() - radius < height + 1)) return;
-            canvas.add_disc(place.x(), place.y(), radius, ball.is_static,
-                            float(std::hypot(ball.velocity.x(), ball.velocity.y())));
+            canvas.add_disc(place.x(), place.y(), radius, ball.is_static, colouring.values[i]);
         });
     }
     const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height));
     if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) return;
-    copy_to_surface(canvas, surface.get(), speed_scale);
+    copy_to_surface(canvas, surface.get(), colouring);
     cairo_save(context);
     cairo_translate(context, layout.left, layout.top);
     cairo_scale(context, 1 / pixels_per_unit, 1 / pixels_per_unit);

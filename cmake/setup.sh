@@ -3,6 +3,9 @@
 carom_packages="ca-certificates cmake g++ libbenchmark-dev libboost-dev libcairo2-dev libcli11-dev libeigen3-dev libfmt-dev libgtest-dev
     libgmock-dev libhdf5-dev libtbb-dev libvalijson-dev ninja-build nlohmann-json3-dev pkg-config"
 
+# What `carom view` needs beside them; without them the program is built without its window.
+carom_view_packages="libimgui-dev libsdl2-dev"
+
 # carom_install PACKAGE...: installs those that are not there; quiet and quick when all are.
 carom_install() {
     missing=""

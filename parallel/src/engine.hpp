@@ -27,6 +27,8 @@ class Engine {
     virtual void renew_field(const Time& t) = 0;
     /// The moving balls' states at `t`, the time advanced to last: states[id].
     virtual void read(const Time& t, std::span<BallState> states) const = 0;
+    /// The numbers of the domains that own the moving balls: domains[id]. Left alone where there is one loop.
+    virtual void read_domains(std::span<std::uint32_t> domains) const { (void)domains; }
     /// The same balls as they were left by their last events until `t`.
     virtual void save(const Time& t, Snapshot& snapshot) const = 0;
     /// Every broken rule of the loops.

@@ -38,6 +38,7 @@ class WindowedEngine final : public Engine {
     void advance_to(const Time& end, const Time& horizon) override;
     void renew_field(const Time& t) override;
     void read(const Time& t, std::span<BallState> states) const override;
+    void read_domains(std::span<std::uint32_t> domains) const override;
     void save(const Time& t, Snapshot& snapshot) const override;
     void audit(std::vector<Violation>& found) const override;
     void listen(std::function<void(const Collision&)> listener) override;

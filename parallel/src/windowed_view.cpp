@@ -94,6 +94,12 @@ WindowedEngine::Past WindowedEngine::past_of(const DomainState& d, std::size_t i
     return past;
 }
 
+void WindowedEngine::read_domains(std::span<std::uint32_t> domains) const {
+    for (std::size_t d = 0; d < domains_.size(); ++d)
+        for (const BallRecord& record : held(domains_[d]).records)
+            domains[record.id] = static_cast<std::uint32_t>(d);
+}
+
 void WindowedEngine::read(const Time& t, std::span<BallState> states) const {
     for_each_domain([&](std::size_t k) {
         const DomainState& d = domains_[k];

@@ -90,6 +90,12 @@ std::vector<Ball> World::balls() const {
     return state_->balls();
 }
 
+std::vector<std::uint32_t> World::domains_of_balls() const {
+    std::vector<std::uint32_t> domains(ball_count(), 0);
+    state_->engine->read_domains(domains);
+    return domains;
+}
+
 double World::kinetic_energy() const {
     const Property& mass = state_->bodies().mass;
     return state_->sum([&mass](std::uint32_t id, const BallState& s) {

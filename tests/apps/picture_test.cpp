@@ -175,6 +175,39 @@ TEST(Picture, TopSpeedIsThe99thPercentileOfMovingBalls) {
     EXPECT_EQ(top_speed({fixed}), 0);
 }
 
+TEST(Colouring, RangesFollowWhatTheColoursShow) {
+    std::vector<Ball> balls = {ball_at(0, 0, 3, 1), ball_at(0, 0, -1, 2), ball_at(0, 0, 0, 4),
+                               ball_at(0, 0, 9, 9)};
+    balls[3].is_static = true;
+    const Colouring speed = colouring_of(balls, ColourBy::kSpeed);
+    EXPECT_EQ(speed.fraction_of(speed.values[0]), 1);
+    EXPECT_EQ(speed.fraction_of(speed.values[2]), 0);
+    EXPECT_FALSE(speed.has_more);
+    const Colouring fixed = colouring_of(balls, ColourBy::kSpeed, {}, 2);
+    EXPECT_EQ(fixed.fraction_of(1), 0.5);
+    EXPECT_TRUE(fixed.has_more);
+    const Colouring size = colouring_of(balls, ColourBy::kSize);
+    EXPECT_EQ(size.low, 1);
+    EXPECT_EQ(size.high, 4);
+    const Colouring hits = colouring_of(balls, ColourBy::kCollisions, {5, 15, 10, 0});
+    EXPECT_EQ(hits.fraction_of(hits.values[0]), 0);
+    EXPECT_EQ(hits.fraction_of(hits.values[2]), 0.5);
+    EXPECT_EQ(hits.fraction_of(hits.values[1]), 1);
+    // All alike, or nothing there: still a range.
+    for (const ColourBy by : kAllColourBy) {
+        const Colouring none = colouring_of({}, by);
+        EXPECT_LT(none.low, none.high);
+        const Colouring alike = colouring_of({balls[1], balls[1]}, by, {7, 7});
+        EXPECT_LT(alike.low, alike.high);
+    }
+    // Neighbouring domains differ.
+    const Colouring domain = colouring_of(balls, ColourBy::kDomain, {0, 1, 2, 3});
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            EXPECT_GT(std::abs(domain.fraction_of(domain.values[i]) - domain.fraction_of(domain.values[j])),
+                      0.1);
+}
+
 TEST(Picture, BallsHaveTheirPlaceAndColourWithYUp) {
     PictureContent content = box_content(20, 10);
     content.balls = {ball_at(4, 8, 2, 1), ball_at(15, 2.5, 1, 1), ball_at(10, 5, 0, 1)};
@@ -303,6 +336,17 @@ TEST(Picture, StaticBallsWallsAndAttractors) {
     const Bytes fixed = image.at(layout.to_pixel({15, 5}));
     EXPECT_NEAR(fixed.red, fixed.blue, 40);  // grey
     EXPECT_GT(fixed.red, 60);
+}
+
+TEST(Picture, AViewShowsAPartOfThePeriodicBox) {
+    PictureContent content = box_content(10, 10, Boundary::kPeriodic);
+    content.balls = {ball_at(0.1, 5, 0, 1)};  // its other half shows at the right
+    content.view = Box{{8, 4}, {10, 6}};
+    const PictureSize size{700, 600};
+    const PictureLayout layout(view_of(content), size);
+    const Image image = png_of(content, size);
+    expect_colour(image.at(layout.to_pixel({9.8, 5.1})), map_colour(0));
+    expect_colour(image.at(layout.to_pixel({8.5, 5})), palette::kGround);
 }
 
 TEST(Picture, ViewWithoutDomainHoldsEverything) {

@@ -34,7 +34,9 @@ TEST(Program, HelpAndVersion) {
                                                {"run", "--help"},
                                                {"validate", "--help"},
                                                {"render", "--help"},
-                                               {"advise", "--help"}}) {
+                                               {"advise", "--help"},
+                                               {"view", "--help"},
+                                               {"plot", "--help"}}) {
         const Result result = folder.run(arguments);
         EXPECT_EQ(result.status, 0);
         EXPECT_EQ(result.err, "");
@@ -59,8 +61,8 @@ TEST(Program, WrongUsageIsOneLineAndStatusTwo) {
                      "unknown format '.gro'");
     expect_one_error(folder.run({"run", "s.json", "--picture", "p.mp4"}), 2,
                      "unknown picture format '.mp4' (known: .png, .svg)");
-    expect_one_error(folder.run({"render", "s.json", "--out", "p.mp4"}), 2,
-                     "unknown picture format '.mp4' (known: .png, .svg)");
+    expect_one_error(folder.run({"render", "s.json", "--out", "p.avi"}), 2,
+                     "unknown format '.avi' (known: .png, .svg, .mp4, .gif)");
     expect_one_error(folder.run({"render", "s.json"}), 2, "--out");
     expect_one_error(folder.run({"render", "s.json", "--out", "p.png", "--size", "big"}), 2, "'big'");
     expect_one_error(folder.run({"run", "s.json", "--summary", "./s.json"}), 2, "overwrite the scene");

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "driver.hpp"
+#include "movie.hpp"
 
 namespace carom::app {
 namespace {
@@ -104,6 +105,24 @@ TEST(Multiples, AreProductsAndStopBeforeTheEnd) {
         for (; rounded.next(); rounded.advance()) ++count;
         EXPECT_EQ(count, 3);
     }
+}
+
+TEST(MovieTimes, FramesAreApartBySpeedOverRateAndTheTitleTellsThemApart) {
+    EXPECT_EQ((MovieTimes{.from = 0, .until = 1, .frames_per_second = 8, .speed = 1.5}.step()), 0.1875);
+    EXPECT_EQ(time_digits({.from = 0, .until = 10, .frames_per_second = 10, .speed = 1}), 6);
+    // At 2.5 a step of 1e-6 shows in the 7th digit.
+    EXPECT_GE(time_digits({.from = 2, .until = 2.5, .frames_per_second = 10, .speed = 1e-5}), 7);
+}
+
+// It follows a step smoothly, by a share of 2 / fps a frame, and begins where the first frame is.
+TEST(ColourTop, FollowsSmoothly) {
+    ColourTop top(20);
+    EXPECT_EQ(top.next(10), 10);
+    EXPECT_DOUBLE_EQ(top.next(20), 11);
+    EXPECT_DOUBLE_EQ(top.next(20), 11.9);
+    ColourTop slow(1);  // at less than two frames a second there is nothing to smooth
+    EXPECT_EQ(slow.next(3), 3);
+    EXPECT_EQ(slow.next(7), 7);
 }
 
 }  // namespace

@@ -174,6 +174,31 @@ TEST(World, EqualBallsFillANarrowPeriod) {
     EXPECT_TRUE(world.validate().empty());
 }
 
+// A domain is a part of the plane and not a lottery: the ball nearest to a ball is mostly of its own
+// domain. Four domains of 500 balls each have some 22 x 22 balls, 84 of them along the border.
+TEST(World, TellsWhichDomainOwnsEachBall) {
+    const Scene s = gas(45, {.count = 2000, .packing = 0.4});
+    World world(s, {.threads = 1, .domains = 4});
+    world.advance_to(1);
+    const std::vector<std::uint32_t> domains = world.domains_of_balls();
+    const PlaneVectors places = world.positions();
+    ASSERT_EQ(domains.size(), 2000u);
+    std::vector<int> sizes(4, 0);
+    for (const std::uint32_t d : domains) ++sizes.at(d);
+    for (const int size : sizes) EXPECT_NEAR(size, 500, 250);
+    int strangers = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        std::size_t nearest = i == 0 ? 1 : 0;
+        for (std::size_t j = 0; j < places.size(); ++j)
+            if (j != i && (places[j] - places[i]).squaredNorm() < (places[nearest] - places[i]).squaredNorm())
+                nearest = j;
+        strangers += domains[nearest] != domains[i];
+    }
+    EXPECT_LT(strangers, 4 * 84);  // chance would make it 1,500
+    World whole(s, {.threads = 1, .domains = 1});
+    EXPECT_EQ(whole.domains_of_balls(), std::vector<std::uint32_t>(2000, 0));
+}
+
 TEST(World, EmptyAndStaticWorldsStandStill) {
     Scene s;
     s.until = 1;

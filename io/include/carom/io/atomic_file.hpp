@@ -29,6 +29,11 @@ class AtomicFile {
 
     [[nodiscard]] const std::filesystem::path& target() const { return target_; }
 
+    /// Where the bytes are until commit(), for another program that writes them in place of write().
+    [[nodiscard]] const std::filesystem::path& written_path() const {
+        return temporary_.empty() ? target_ : temporary_;
+    }
+
     /// Appends. Large pieces are cheap, small ones cost a system call each.
     void write(std::string_view text);
     /// Forces the content to the disk, renames, and forces the folder. Nothing may be written afterwards.

@@ -91,6 +91,10 @@ class World {
     /// Every ball at time(), in the order of the ids: positions, velocities and what does not change.
     [[nodiscard]] std::vector<Ball> balls() const;
 
+    /// The number of the domain that owns each ball at present, in the order of the ids: how the work is cut,
+    /// for who wants to look at it. Of no consequence; 0 for static balls and where there is one domain.
+    [[nodiscard]] std::vector<std::uint32_t> domains_of_balls() const;
+
     [[nodiscard]] Counts counts() const;
     /// Seconds that the threads have worked on domains, all together, for benchmarks; 0 where there is one
     /// domain.
