@@ -191,7 +191,8 @@ TEST(Simulation, RestartsWithOtherSeeds) {
 TEST(EventLog, KeepsTheLatestAndCountsAll) {
     EventLog log(4, 3);
     for (std::uint32_t k = 0; k < 5; ++k)
-        log.note({double(k), k == 4 ? CollisionKind::kWall : CollisionKind::kBall, 0, k % 3 + 1, {}, {}, 0});
+        log.note(
+            {double(k), k == 4 ? CollisionKind::kWall : CollisionKind::kBall, 0, k % 3 + 1, {}, {}, 0, 0});
     EXPECT_EQ(log.total(), 5U);
     EXPECT_EQ(log.counts(), (std::vector<std::uint32_t>{5, 2, 1, 1}));  // the wall 2 is no ball 2
     const std::vector<Collision> history = log.history_of(0, 10);
