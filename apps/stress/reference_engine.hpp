@@ -209,10 +209,13 @@ class BruteForce {
         const std::size_t n = bodies_.size();
         for (std::size_t j = 0; j < n; ++j) {
             if (j == i || (bodies_[i].ball.is_static && bodies_[j].ball.is_static)) continue;
+            if (!may_collide(bodies_[i].ball.filter, bodies_[j].ball.filter)) continue;
             set(std::min(i, j), std::max(i, j), pair_entry(std::min(i, j), std::max(i, j)));
         }
         if (bodies_[i].ball.is_static) return;
-        for (std::size_t w = 0; w < walls_.size(); ++w) set(i, n + w, wall_entry(i, walls_[w]));
+        for (std::size_t w = 0; w < walls_.size(); ++w)
+            if (may_collide(bodies_[i].ball.filter, walls_[w].filter))
+                set(i, n + w, wall_entry(i, walls_[w]));
         for (std::size_t s = 0; s < 4; ++s) set(i, n + walls_.size() + s, side_entry(i, s));
     }
 

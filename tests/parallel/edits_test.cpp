@@ -191,6 +191,30 @@ TEST(Edits, UserDataStaysWithItsBall) {
     EXPECT_EQ(world.user_data(0), 0);
 }
 
+TEST(Edits, FiltersLetBallsPass) {
+    Scene scene = lone({0, 0}, {1, 0});
+    scene.balls.push_back({.position = {5, 0}, .filter = {.category = 2, .mask = 2}});
+    scene.balls.push_back({.position = {10, 0}});
+    scene.walls = {{.from = {7, -1}, .to = {7, 1}, .filter = {.category = 4, .mask = 6}}};
+    World world(scene);
+    std::vector<Collision> told;
+    world.on_collision([&told](const Collision& c) { told.push_back(c); });
+    world.advance_to(2);
+    static_cast<void>(world.apply({.changed_balls = {{.id = 0, .filter = CollisionFilter{1, 3}}}}));
+    world.advance_to(5);  // through the second ball, which does not look for it
+    EXPECT_EQ(world.max_overlap(), 0);
+    EXPECT_TRUE(world.validate().empty());
+    EXPECT_TRUE(told.empty());
+    // Colliding again while they overlap is refused; apart it is taken.
+    EXPECT_THROW(
+        static_cast<void>(world.apply({.changed_balls = {{.id = 0, .filter = CollisionFilter{3, 3}}}})),
+        SceneError);
+    world.advance_to(12);
+    ASSERT_EQ(told.size(), 1);  // and through the wall
+    EXPECT_EQ(told[0].time, 9);
+    EXPECT_EQ(told[0].j, 2);
+}
+
 TEST(Edits, EmpiricalMethodTakesNone) {
     Scene scene = lone({0, 0}, {1, 0});
     scene.method = Method::kEmpirical;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -183,6 +184,15 @@ inline std::vector<NamedScene> feature_scenes() {
     for (std::size_t i = 1; i < swept.balls.size(); i += 2)
         if (!swept.balls[i].is_static) swept.balls[i].acceleration = {0.05, -0.05};
     add("static balls and walls with own accelerations", swept);
+
+    // Three kinds: the first meets all, the second not its own kind, the third no walls and not the second.
+    Scene kinds = furnish(gas(16, {.packing = 0.3, .boundary_y = kWall}));
+    for (std::size_t i = 0; i < kinds.balls.size(); ++i) {
+        constexpr std::array<CollisionFilter, 3> kKinds = {{{1, 0xff}, {2, 0xff - 2}, {4, 0xff - 2 - 8}}};
+        kinds.balls[i].filter = kKinds[i % 3];
+    }
+    for (Wall& wall : kinds.walls) wall.filter.category = 8;
+    add("categories and masks", kinds);
 
     const auto in_float = [](Scene s) {
         s.precision = Precision::kFloat;
