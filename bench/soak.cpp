@@ -7,8 +7,10 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
-#include <functional>
+#include <optional>
+#include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <carom/io/scene_file.hpp>
@@ -34,26 +36,72 @@ double resident_megabytes() {
     return resident * double(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// What is done to a world between two samples besides advancing it, such as edits of its balls. None so far.
-using Disturbance = std::function<void(World&)>;
+/// What a player would do to a world between two steps: a ball comes, goes or is kicked.
+class Player {
+ public:
+    explicit Player(const World& world) : first_count_(world.ball_count()) {
+        const std::vector<Ball> balls = world.balls();
+        for (const Ball& b : balls)
+            if (!b.is_static) model_ = b;
+    }
+
+    void act(World& world) {
+        const std::vector<std::uint32_t> ids = world.ball_ids();
+        const std::uint32_t id = ids[random_() % ids.size()];
+        switch (random_() % 3) {
+            case 0:
+                if (ids.size() < 2 * first_count_) add(world);
+                break;
+            case 1:
+                if (ids.size() > first_count_ / 2) world.remove_ball(id);
+                break;
+            default:
+                if (!world.ball(id).is_static) world.apply_impulse(id, model_.mass * Vec2(draw(), draw()));
+        }
+        ++acts_;
+    }
+    [[nodiscard]] std::uint64_t acts() const { return acts_; }
+
+ private:
+    double draw() { return double(random_() >> 11U) * 0x1p-53 - 0.5; }
+    void add(World& world) {
+        const Box& box = world.domain().box;
+        Ball b = model_;
+        b.position = (box.min + box.max) / 2 +
+                     Vec2(draw(), draw()).cwiseProduct(box.max - box.min - Vec2(2, 2) * b.radius);
+        try {
+            world.add_ball(b);
+        } catch (const SceneError&) {  // no room there
+        }
+    }
+
+    std::mt19937_64 random_{1};
+    std::size_t first_count_;
+    Ball model_;
+    std::uint64_t acts_ = 0;
+};
 
 class Soak {
  public:
-    Soak(const std::string& path, double seconds)
+    Soak(const std::string& path, double seconds, bool is_played)
         : scene_(read_scene(path)), world_(scene_), seconds_per_sample_(seconds / kSamples) {
-        is_elastic_ = scene_.gravity.isZero(0) && scene_.attractors.empty() && loses_nothing();
+        if (is_played) {
+            player_.emplace(world_);
+            step_ = 1.0 / 60;
+        }
+        is_elastic_ = !is_played && scene_.gravity.isZero(0) && scene_.attractors.empty() && loses_nothing();
         energy_ = world_.energy();
     }
 
     /// False where the world did not stay sound.
-    bool run(const Disturbance& disturb) {
-        fmt::print("\n{}: {} balls\n{:>10} {:>14} {:>14} {:>10} {:>12}  {}\n", scene_.name,
-                   world_.ball_count(), "time", "collisions", "a CPU-second", "RSS MB", "energy", "found");
+    bool run() {
+        fmt::print("\n{}: {} balls{}\n{:>10} {:>14} {:>14} {:>10} {:>12}  {}\n", scene_.name,
+                   world_.ball_count(), player_ ? ", edited" : "", "time", "collisions", "a CPU-second",
+                   "RSS MB", "energy", "found");
         double settled = 0;
         bool is_sound = true;
         for (int k = 0; k < kSamples; ++k) {
             const double pace = advance_for(seconds_per_sample_);
-            if (disturb) disturb(world_);
             const double megabytes = resident_megabytes();
             if (k <= kSettled) settled = std::max(settled, megabytes);
             std::string found = fault();
@@ -64,6 +112,7 @@ class Soak {
                        pace, megabytes, world_.energy(), found.empty() ? "sound" : found);
             std::fflush(stdout);
         }
+        if (player_) fmt::print("{} edits, {} balls\n", player_->acts(), world_.ball_count());
         return is_sound;
     }
 
@@ -86,9 +135,10 @@ class Soak {
         double now = start;
         while (now - start < seconds) {
             world_.step(step_);
+            if (player_) player_->act(world_);
             const double took = cpu_seconds() - now;
             now += took;
-            step_ *= took < seconds / 20 ? 2 : took > seconds / 5 ? 0.5 : 1;
+            if (!player_) step_ *= took < seconds / 20 ? 2 : took > seconds / 5 ? 0.5 : 1;
         }
         return double(collisions() - before) / (now - start);
     }
@@ -105,6 +155,7 @@ class Soak {
 
     Scene scene_;
     World world_;
+    std::optional<Player> player_;
     double seconds_per_sample_;
     double step_ = 1e-4;
     bool is_elastic_ = false;
@@ -114,16 +165,22 @@ class Soak {
 }  // namespace
 }  // namespace carom::bench
 
-// carom_soak SECONDS SCENE...: CPU seconds for each scene.
+// carom_soak SECONDS SCENE...: CPU seconds for each scene; a scene written edited:FILE is edited while it
+// runs.
 int main(int argc, char** argv) {
     if (argc < 3) {
-        fmt::print(stderr, "usage: carom_soak CPU-SECONDS SCENE...\n");
+        fmt::print(stderr, "usage: carom_soak CPU-SECONDS [edited:]SCENE...\n");
         return 2;
     }
     bool all_sound = true;
     try {
-        for (int k = 2; k < argc; ++k)
-            all_sound = carom::bench::Soak(argv[k], std::atof(argv[1])).run(nullptr) && all_sound;
+        for (int k = 2; k < argc; ++k) {
+            std::string scene = argv[k];
+            constexpr std::string_view kEdited = "edited:";
+            const bool is_played = scene.starts_with(kEdited);
+            if (is_played) scene.erase(0, kEdited.size());
+            all_sound = carom::bench::Soak(scene, std::atof(argv[1]), is_played).run() && all_sound;
+        }
     } catch (const std::exception& error) {
         fmt::print(stderr, "carom_soak: error: {}\n", error.what());
         return 1;

@@ -44,8 +44,8 @@ void draw_domain(Canvas& canvas, const Scene& scene, const Camera& camera) {
     side(1, {low.x(), high.y()}, high);
 }
 
-void draw_attractors(Canvas& canvas, const Scene& scene, const Camera& camera) {
-    for (const Attractor& attractor : scene.attractors) {
+void draw_attractors(Canvas& canvas, const std::vector<Attractor>& attractors, const Camera& camera) {
+    for (const Attractor& attractor : attractors) {
         const Vec2 centre = camera.to_pixel(attractor.position);
         const double radius = std::max(attractor.softening * camera.scale(), 6.0);
         const Colour& glow = attractor.strength < 0 ? palette::kPushGlow : palette::kPullGlow;
@@ -106,7 +106,7 @@ void draw_view(Canvas& canvas, const Simulation& simulation, const ViewControls&
     canvas.resize(camera.width(), camera.height());
     canvas.clear(pixel_of(palette::kGround));
     draw_domain(canvas, scene, camera);
-    draw_attractors(canvas, scene, camera);
+    draw_attractors(canvas, simulation.world().attractors(), camera);
     draw_balls(canvas, simulation, controls);
     for (const Wall& wall : scene.walls)
         canvas.line(camera.to_pixel(wall.from), camera.to_pixel(wall.to), 2, pixel_of(palette::kWall));

@@ -13,6 +13,8 @@ class EventLog {
     explicit EventLog(std::size_t balls, std::size_t kept = 1U << 16U) : counts_(balls, 0), kept_(kept) {}
 
     void note(const Collision& c);
+    /// There are so many balls from now on, not fewer than before.
+    void grow(std::size_t balls) { counts_.resize(balls, 0); }
 
     /// Collisions of each ball since the start.
     [[nodiscard]] const std::vector<std::uint32_t>& counts() const { return counts_; }

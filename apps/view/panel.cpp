@@ -122,7 +122,8 @@ void show_panel(const Simulation& simulation, ViewControls& controls, const Pane
     show_curve("rate", simulation.curves().collision_rate, true);
     if (looked_at) show_ball(simulation, *looked_at);
     ImGui::Separator();
-    ImGui::TextDisabled("space . + - c f h r q; drag, wheel, click");
+    ImGui::TextDisabled("space . + - c f h r a b q; drag, wheel, click");
+    if (!simulation.refusal().empty()) ImGui::TextWrapped("%s", simulation.refusal().c_str());
     ImGui::End();
 }
 

@@ -36,6 +36,8 @@ void Simulation::build() {
         if (listens_) log_->note(c);
     });
     curves_ = {};
+    thrown_at_.clear();
+    refusal_.clear();
     since_sample_ = sampled_at_ = 0;
     sampled_collisions_ = 0;
     balls_ = world_->balls();
@@ -145,11 +147,58 @@ std::optional<BallFacts> Simulation::facts() const {
                                          [](const Ball& ball) { return !ball.is_static; });
         facts.anchor = world_->snapshot().anchors[std::size_t(place)];
     }
-    if (!facts.history.empty())
-        facts.anchor_age = world_->time() - facts.history.front().time;
-    else
-        facts.anchor_age = world_->time();
+    double last = facts.history.empty() ? 0 : facts.history.front().time;
+    if (const auto thrown = thrown_at_.find(id); thrown != thrown_at_.end())
+        last = std::max(last, thrown->second);
+    facts.anchor_age = world_->time() - last;
     return facts;
+}
+
+template <class Edit>
+bool Simulation::edit(Edit&& edit) {
+    refusal_.clear();
+    try {
+        edit();
+    } catch (const std::exception& e) {
+        refusal_ = e.what();
+        return false;
+    }
+    log_->grow(world_->ball_count());
+    after_moving();
+    return true;
+}
+
+bool Simulation::throw_ball(std::uint32_t ball, const Vec2& velocity) {
+    return edit([&] {
+        world_->set_velocity(ball, velocity);
+        thrown_at_[ball] = world_->time();
+    });
+}
+
+bool Simulation::add_ball(const Vec2& place) {
+    Ball added;
+    const auto moves = [](const Ball& b) { return !b.is_static; };
+    if (looked_at_)
+        added = balls_[*looked_at_];
+    else if (const auto first = std::ranges::find_if(balls_, moves); first != balls_.end())
+        added = *first;
+    added.position = place;
+    added.velocity = Vec2::Zero();
+    return edit([&] { thrown_at_[world_->add_ball(added)] = world_->time(); });
+}
+
+bool Simulation::add_attractor(const Vec2& place) {
+    const Box& box = world_->domain().box;
+    const double reach = (box.max - box.min).norm() / 10;
+    double speeds_squared = 0;
+    for (const Ball& b : balls_) speeds_squared += b.velocity.squaredNorm();
+    speeds_squared /= double(std::max<std::size_t>(balls_.size(), 1));
+    speeds_squared = std::max(speeds_squared, world_->gravity().norm() * reach);
+    if (!(speeds_squared > 0)) speeds_squared = reach * reach;  // all is at rest: any time will do
+    // v^2 / 2 = k / reach
+    std::vector<Attractor> attractors = world_->attractors();
+    attractors.push_back({place, speeds_squared * reach / 2, reach / 10});
+    return edit([&] { world_->set_attractors(attractors); });
 }
 
 }  // namespace carom::app

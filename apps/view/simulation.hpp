@@ -2,8 +2,10 @@
 // window.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <carom/parallel/world.hpp>
@@ -56,6 +58,14 @@ class Simulation {
     [[nodiscard]] std::optional<std::uint32_t> ball_at(const Vec2& place, double slack) const;
     void look_at(std::optional<std::uint32_t> ball) { looked_at_ = ball; }
     [[nodiscard]] std::optional<std::uint32_t> looked_at() const { return looked_at_; }
+    // Edits at the world's time. False, and refusal() says why, where that cannot be.
+    bool throw_ball(std::uint32_t ball, const Vec2& velocity);
+    /// At rest, otherwise like the ball that is looked at, or the first that moves.
+    bool add_ball(const Vec2& place);
+    /// A black hole that a ball at about the mean speed escapes from a tenth of the plane away.
+    bool add_attractor(const Vec2& place);
+    [[nodiscard]] const std::string& refusal() const { return refusal_; }
+
     /// Of the ball that is looked at.
     [[nodiscard]] std::optional<BallFacts> facts() const;
 
@@ -64,6 +74,8 @@ class Simulation {
     void advance_to(double time);
     void after_moving();
     void take_sample(double seconds);
+    template <class Edit>
+    bool edit(Edit&& edit);
 
     Scene scene_;
     std::vector<std::uint64_t> seeds_;
@@ -79,6 +91,8 @@ class Simulation {
     double sampled_at_ = 0;
     std::uint64_t sampled_collisions_ = 0;
     std::optional<std::uint32_t> looked_at_;
+    std::map<std::uint32_t, double> thrown_at_;  // the time of a ball's last edit
+    std::string refusal_;
 };
 
 }  // namespace carom::app

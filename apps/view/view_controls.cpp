@@ -28,6 +28,10 @@ std::optional<Action> action_of_key(int key) {
             return Action::kPanel;
         case 'r':
             return Action::kRestart;
+        case 'a':
+            return Action::kAddBall;
+        case 'b':
+            return Action::kAddAttractor;
         case 'q':
         case kEscape:
             return Action::kQuit;
@@ -61,7 +65,14 @@ void ViewControls::act(Action action) {
             shows_panel = !shows_panel;
             break;
         case Action::kRestart:
+            held_.reset();
             simulation_.restart(restarts);
+            break;
+        case Action::kAddBall:
+            (void)simulation_.add_ball(camera.to_place(mouse_));
+            break;
+        case Action::kAddAttractor:
+            (void)simulation_.add_attractor(camera.to_place(mouse_));
             break;
         case Action::kQuit:
             has_quit = true;
@@ -69,25 +80,48 @@ void ViewControls::act(Action action) {
     }
 }
 
+std::optional<std::uint32_t> ViewControls::ball_at(const Vec2& pixel) const {
+    constexpr double kSlack = 3;  // pixels around a ball too small to hit
+    return simulation_.ball_at(camera.to_place(pixel), kSlack / camera.scale());
+}
+
 void ViewControls::press(const Vec2& pixel) {
-    pressed_at_ = last_ = pixel;
+    pressed_at_ = last_ = mouse_ = pixel;
     is_dragging_ = false;
+    held_ = ball_at(pixel);
+    if (held_ && simulation_.balls()[*held_].is_static) held_.reset();
 }
 
 void ViewControls::move(const Vec2& pixel) {
     constexpr double kStill = 4;  // pixels that a hand moves without meaning it
+    mouse_ = pixel;
     if (!pressed_at_) return;
     is_dragging_ = is_dragging_ || (pixel - *pressed_at_).norm() > kStill;
-    if (!is_dragging_) return;
+    if (!is_dragging_ || held_) return;
     camera.pan(pixel - last_);
     last_ = pixel;
 }
 
 void ViewControls::release(const Vec2& pixel) {
-    constexpr double kSlack = 3;  // pixels around a ball too small to hit
-    if (pressed_at_ && !is_dragging_)
-        simulation_.look_at(simulation_.ball_at(camera.to_place(pixel), kSlack / camera.scale()));
+    mouse_ = pixel;
+    if (pressed_at_ && !is_dragging_) simulation_.look_at(ball_at(pixel));
+    if (const auto drawn = held(); drawn && is_paused)
+        (void)simulation_.throw_ball(drawn->first,
+                                     (drawn->second - simulation_.balls()[drawn->first].position) / speed);
     pressed_at_.reset();
+    held_.reset();
+}
+
+void ViewControls::pull() {
+    constexpr double kDelay = 0.1;  // real seconds that it is behind the mouse
+    if (const auto drawn = held(); drawn && !is_paused)
+        (void)simulation_.throw_ball(
+            drawn->first, (drawn->second - simulation_.balls()[drawn->first].position) / (kDelay * speed));
+}
+
+std::optional<std::pair<std::uint32_t, Vec2>> ViewControls::held() const {
+    if (!held_ || !is_dragging_ || *held_ >= simulation_.balls().size()) return std::nullopt;
+    return std::pair(*held_, camera.to_place(mouse_));
 }
 
 void ViewControls::wheel(double clicks, const Vec2& pixel) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "camera.hpp"
 #include "colouring.hpp"
@@ -19,6 +20,8 @@ enum class Action : std::uint8_t {
     kFit,
     kPanel,
     kRestart,
+    kAddBall,
+    kAddAttractor,
     kQuit
 };
 
@@ -34,10 +37,16 @@ class ViewControls {
     explicit ViewControls(Simulation& simulation) : simulation_(simulation) {}
 
     void act(Action action);
+    /// On a ball that moves: takes hold of it. Elsewhere a move shifts what is shown.
     void press(const Vec2& pixel);
     void move(const Vec2& pixel);
-    /// Without a move since the press: the ball under the pixel is looked at.
+    /// Without a move since the press: the ball under the pixel is looked at. A ball that was held is let go:
+    /// it flies on as it was drawn, or, where the world is paused, to here in a second.
     void release(const Vec2& pixel);
+    /// Before the world moves on: draws the ball that is held towards the mouse.
+    void pull();
+    /// The ball that is drawn, and where to.
+    [[nodiscard]] std::optional<std::pair<std::uint32_t, Vec2>> held() const;
     void wheel(double clicks, const Vec2& pixel);
     void resize(int width, int height);
     /// Shows everything, beside the panel.
@@ -53,9 +62,13 @@ class ViewControls {
     std::uint64_t restarts = 0;
 
  private:
+    [[nodiscard]] std::optional<std::uint32_t> ball_at(const Vec2& pixel) const;
+
     Simulation& simulation_;
     std::optional<Vec2> pressed_at_;
+    std::optional<std::uint32_t> held_;
     Vec2 last_ = Vec2::Zero();
+    Vec2 mouse_ = Vec2::Zero();
     bool is_dragging_ = false;
 };
 

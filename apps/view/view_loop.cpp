@@ -114,6 +114,7 @@ class ViewLoop {
         const double seconds = std::chrono::duration<double>(now - last_).count();
         last_ = now;
         const double before = simulation_.world().time();
+        controls_.pull();
         if (!controls_.is_paused) {
             if (options_.frames)
                 simulation_.play(kFrame, controls_.speed, std::nullopt);

@@ -227,9 +227,10 @@ TEST(ViewControls, KeysAndMouse) {
     controls.move(ball + Vec2{2, 1});  // a click, for all that the hand shook
     controls.release(ball + Vec2{2, 1});
     EXPECT_EQ(simulation.looked_at(), 0U);
-    controls.press(ball);
-    controls.move(ball + Vec2{-50, 30});
-    controls.release(ball + Vec2{-50, 30});
+    const Vec2 ground = ball + Vec2{-100, 80};
+    controls.press(ground);
+    controls.move(ground + Vec2{-50, 30});
+    controls.release(ground + Vec2{-50, 30});
     EXPECT_EQ(simulation.looked_at(), 0U);  // a drag picks nothing
     EXPECT_NEAR((controls.camera.to_pixel(simulation.balls()[0].position) - ball - Vec2{-50, 30}).norm(), 0,
                 1e-9);
@@ -238,6 +239,66 @@ TEST(ViewControls, KeysAndMouse) {
     EXPECT_FALSE(simulation.looked_at());
     key('q');
     EXPECT_TRUE(controls.has_quit);
+}
+
+TEST(ViewControls, BallsAreDrawnAndThrown) {
+    Simulation simulation(one_ball(), kOneThread);
+    ViewControls controls(simulation);
+    controls.resize(400, 400);
+    const Vec2 target{7, 3};
+    controls.press(controls.camera.to_pixel({5, 5}));
+    EXPECT_FALSE(controls.held());
+    controls.move(controls.camera.to_pixel(target));
+    ASSERT_TRUE(controls.held());
+    // Each frame takes a sixtieth of a second of a way that has a tenth of a second left: 5/6 remain.
+    for (int frame = 1; frame <= 30; ++frame) {
+        controls.pull();
+        simulation.play(1.0 / 60, controls.speed, std::nullopt);
+        const double left = std::pow(5.0 / 6, frame) * std::sqrt(8.0);
+        EXPECT_NEAR((simulation.balls()[0].position - target).norm(), left, 1e-9);
+    }
+    controls.release(controls.camera.to_pixel(target));
+    EXPECT_FALSE(controls.held());
+    const Vec2 velocity = simulation.balls()[0].velocity;
+    EXPECT_GT(velocity.norm(), 0);
+    simulation.play(0.01, 1, std::nullopt);
+    EXPECT_EQ(simulation.balls()[0].velocity, velocity);  // it flies on
+
+    controls.is_paused = true;
+    controls.speed = 0.5;
+    const Vec2 from = simulation.balls()[0].position;
+    controls.press(controls.camera.to_pixel(from));
+    controls.move(controls.camera.to_pixel({8, 8}));
+    controls.release(controls.camera.to_pixel({8, 8}));
+    simulation.play(1, controls.speed, std::nullopt);
+    EXPECT_LT((simulation.balls()[0].position - Vec2(8, 8)).norm(), 1e-9);
+    EXPECT_TRUE(simulation.world().validate().empty());
+}
+
+TEST(ViewControls, AddsBallsAndBlackHolesUnderTheMouse) {
+    Simulation simulation(one_ball(), kOneThread);
+    ViewControls controls(simulation);
+    controls.resize(400, 400);
+    const auto add = [&](char key, const Vec2& place) {
+        controls.move(controls.camera.to_pixel(place));
+        controls.act(action_of_key(key).value());
+    };
+    add('a', {2, 2});
+    ASSERT_EQ(simulation.balls().size(), 2U);
+    EXPECT_LT((simulation.balls()[1].position - Vec2(2, 2)).norm(), 1e-12);
+    EXPECT_EQ(simulation.balls()[1].velocity, Vec2(0, 0));
+    EXPECT_EQ(simulation.log().counts().size(), 2U);
+    add('a', {2.5, 2});  // no room
+    EXPECT_EQ(simulation.balls().size(), 2U);
+    EXPECT_EQ(simulation.refusal().rfind("balls[1]: overlaps balls[2]", 0), 0U) << simulation.refusal();
+    add('b', {8, 2});
+    ASSERT_EQ(simulation.world().attractors().size(), 1U);
+    EXPECT_EQ(simulation.refusal(), "");
+    simulation.play(1, 1, std::nullopt);
+    EXPECT_GT(simulation.balls()[1].velocity.x(), 0);  // it is drawn there
+    controls.act(Action::kRestart);
+    EXPECT_EQ(simulation.balls().size(), 1U);
+    EXPECT_TRUE(simulation.world().attractors().empty());
 }
 
 TEST(DrawView, BallsAreInTheirPlacesInTheirColours) {
