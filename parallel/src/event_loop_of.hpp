@@ -43,7 +43,8 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] Gap gap_to_side(std::uint32_t i, Side side) const;
 
     // Prediction: pure functions of the anchors.
-    [[nodiscard]] Time predict_pair(std::uint32_t i, std::uint32_t j, Image image) const;
+    /// kNever also where that is surely later than `limit`.
+    [[nodiscard]] Time predict_pair(std::uint32_t i, std::uint32_t j, Image image, const Time& limit) const;
     [[nodiscard]] Time predict_fixed(std::uint32_t i, std::uint32_t id, Image image) const;
     [[nodiscard]] NextEvent predict_obstacle(std::uint32_t i, std::uint32_t obstacle, Image image) const;
     [[nodiscard]] NextEvent predict_side(std::uint32_t i, std::uint32_t side) const;
