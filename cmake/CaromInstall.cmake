@@ -5,6 +5,7 @@ get_property(libraries GLOBAL PROPERTY CAROM_LIBRARIES)
 install(TARGETS ${libraries} EXPORT carom-targets FILE_SET HEADERS)
 if(TARGET carom)
     install(TARGETS carom)
+    install(FILES ${PROJECT_SOURCE_DIR}/apps/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME carom)
 endif()
 install(EXPORT carom-targets NAMESPACE carom:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/carom-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/carom-config.cmake
