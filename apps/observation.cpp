@@ -26,13 +26,14 @@ bool Observation::begin(const World& world) {
 }
 
 void Observation::sample(const World& world) {
+    if (!observer_) return;
     const Sample sample = observer_->sample(world);
     if (rows_) rows_->write(to_csv(sample));
 }
 
 void Observation::commit() {
     if (rows_) rows_->sync();
-    if (!structure_) return;
+    if (!structure_ || !observer_) return;
     structure_->write(to_json(observer_->structure()));
     structure_->commit();
 }

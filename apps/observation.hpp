@@ -27,7 +27,10 @@ class Observation {
 
     /// To be called before the first sample. Gives whether collisions are to be recorded.
     bool begin(const World& world);
-    void record(const Collision& collision) { observer_->record(collision); }
+    void record(const Collision& collision) {
+        if (observer_) observer_->record(collision);
+    }
+    /// After begin().
     void sample(const World& world);
     void commit();
 

@@ -143,7 +143,8 @@ PanelLayout panel_layout(const Plot& plot, std::size_t panel, PictureSize size) 
     const double width = size.width / double(columns);
     const double height = (size.height - kTitle) / double(rows);
     const double left = width * double(panel % columns);
-    const double top = kTitle + height * double(panel / columns);
+    const std::size_t row = panel / columns;
+    const double top = kTitle + height * double(row);
     PanelLayout layout{left + 72, left + width - 22, top + 26, top + height - 50, {}, {}};
     set_range(plot.panels[panel], layout);
     return layout;

@@ -79,7 +79,7 @@ class Examination {
     void run_plain(Verdict& verdict);
     void follow_reference();
     void run_other(const std::string& name, const WorldOptions& options, bool in_frames, bool resumes);
-    void restore_and_repeat(Watched& plain);
+    void restore_and_repeat(Watched& plain, const Snapshot& snapshot);
     void check_state(Watched& watched);
     void expect_same(Watched& watched, std::size_t stop);
     void advance(Watched& watched, double stop, bool in_frames);
@@ -163,12 +163,12 @@ void Examination::run_plain(Verdict& verdict) {
     }
     verdict.collisions = count;
     if (!replay.fault().empty()) throw Failure{"physics", replay.fault()};
-    if (reached_ == kStretches && snapshot_) restore_and_repeat(plain);
+    if (reached_ == kStretches && snapshot_) restore_and_repeat(plain, *snapshot_);
 }
 
-void Examination::restore_and_repeat(Watched& plain) {
+void Examination::restore_and_repeat(Watched& plain, const Snapshot& snapshot) {
     plain.listen(nullptr);
-    plain.world().restore(*snapshot_);
+    plain.world().restore(snapshot);
     plain.set_events(events_at_snapshot_);
     for (std::size_t k = snapshot_stop_; k < reached_; ++k) {
         plain.world().advance_to(stops_[k]);
@@ -256,7 +256,7 @@ void Examination::run_other(const std::string& kind, const WorldOptions& options
                                          options.threads, options.domains, options.halo, options.cell_size);
     std::size_t next = 0;
     std::optional<Watched> watched;
-    if (resumes) {
+    if (resumes && snapshot_) {
         watched.emplace(name, World(scene_, options, *snapshot_));
         watched->set_events(events_at_snapshot_);
         next = snapshot_stop_;

@@ -37,12 +37,14 @@ double depth(const Scene& scene, const PlaneVectors& positions, std::size_t i, s
 }
 
 std::string find_outside(const Scene& scene, const PlaneVectors& positions, double allowed) {
+    if (!scene.domain) return {};
+    const Domain& domain = *scene.domain;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         for (int axis = 0; axis < 2; ++axis) {
-            if (scene.domain->boundary[std::size_t(axis)] != Boundary::kWall) continue;
+            if (domain.boundary[std::size_t(axis)] != Boundary::kWall) continue;
             const double r = scene.balls[i].radius;
-            const double beyond = std::max(scene.domain->box.min[axis] + r - positions[i][axis],
-                                           positions[i][axis] + r - scene.domain->box.max[axis]);
+            const double beyond = std::max(domain.box.min[axis] + r - positions[i][axis],
+                                           positions[i][axis] + r - domain.box.max[axis]);
             if (!(beyond <= allowed))
                 return fmt::format("ball {} is beyond a walled side by {:.3g}", i, beyond);
         }

@@ -12,6 +12,9 @@
 
 #include "draw.hpp"
 
+// Every scene that is drawn has a domain from the first on.
+// NOLINTBEGIN(bugprone-unchecked-optional-access)
+
 namespace carom::stress {
 namespace {
 
@@ -286,3 +289,5 @@ Scene draw_scene(std::uint64_t seed, std::size_t most_balls) {
 }
 
 }  // namespace carom::stress
+
+// NOLINTEND(bugprone-unchecked-optional-access)

@@ -66,7 +66,7 @@ std::optional<Meeting> next_meeting(const std::vector<Ball>& balls, std::uint32_
         for (std::size_t w = 0; w < scene.walls.size(); ++w) ask_wall(scene.walls[w], w);
         const auto sides = sides_of(scene.domain);
         for (std::size_t side = 0; side < 4; ++side)
-            if (sides[side]) ask_wall(*sides[side], scene.walls.size() + side);
+            if (const std::optional<Wall>& wall = sides[side]) ask_wall(*wall, scene.walls.size() + side);
     }
     if (first.delay == kForEver) return std::nullopt;
     return first;

@@ -60,7 +60,7 @@ void H5mdLayout::text(const std::string& object, const char* name,
                       const std::vector<const char*>& values) const {
     const Hdf5Handle type = check_.own(H5Tcopy(H5T_C_S1), H5Tclose);
     check_(H5Tset_size(type.id(), H5T_VARIABLE));
-    attribute(object, name, type.id(), type.id(), values.data(), values.size());
+    attribute(object, name, type.id(), type.id(), static_cast<const void*>(values.data()), values.size());
 }
 
 void H5mdLayout::attribute(const std::string& object, const char* name, hid_t stored, hid_t given,
@@ -113,8 +113,8 @@ void lay_out_frames(const H5mdLayout& layout, hsize_t count, hid_t number) {
     }
     layout.growing(group + "position/step", H5T_STD_I64LE, {}, {});
     layout.growing(group + "position/time", H5T_IEEE_F64LE, {}, {});
-    for (const std::string name : {"step", "time"})
-        layout.link(group + "position/" + name, group + "velocity/" + name);
+    layout.link(group + "position/step", group + "velocity/step");
+    layout.link(group + "position/time", group + "velocity/time");
 }
 
 void lay_out(const H5mdLayout& layout, std::span<const Ball> balls, const std::optional<Domain>& domain,

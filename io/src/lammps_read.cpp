@@ -148,8 +148,8 @@ class DataReader {
     }
 
     void take_atom(std::string_view line) {
-        if (frame_.balls.size() == *count_)
-            lines_.fail(fmt::format("the header says that there are {} atoms", *count_));
+        if (const std::uint64_t count = count_.value_or(0); frame_.balls.size() == count)
+            lines_.fail(fmt::format("the header says that there are {} atoms", count));
         const std::size_t words = count_words(line);
         if (style_ == AtomStyle::kUnknown) style_ = style_by(words);
         const std::size_t own = columns_of(style_);

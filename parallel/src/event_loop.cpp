@@ -23,7 +23,6 @@ void EventLoop::clear(const Region& region, const Time& now) {
         std::fill_n(is_inside_.begin() + y * row + 1, std::max<std::ptrdiff_t>(row - 2, 0), std::uint8_t{1});
     epoch_ = now.epoch;
     now_ = now.offset;
-    horizon_ = kNever;
     simultaneous_ = failed_ = false;
     events_at_once_ = 0;
     events = collisions_of_all = 0;
@@ -110,8 +109,6 @@ template <Acceleration A>
 void EventLoopOf<A>::renew_field(const Time& t) {
     now_ = std::max(now_, clock_.since_epoch(t, epoch_));
     if constexpr (A == Acceleration::kPerBall) {
-        constexpr double kSlack = 1.001;  // far more than the schedule's rounding
-        horizon_ = clock_.after(t, kSlack * bodies_.physics.field_interval);
         for (std::uint32_t i = 0; i < size(); ++i) {
             advance(i, t);
             settle(i);

@@ -194,7 +194,6 @@ class EventLoop {
 
     std::int64_t epoch_ = 0;
     double now_ = 0;             // since the start of the epoch
-    Time horizon_ = kNever;      // no sooner than the field's next renewal, when all is predicted anew
     bool simultaneous_ = false;  // several events share the present instant
     bool failed_ = false;
     std::uint64_t events_at_once_ = 0;

@@ -134,7 +134,7 @@ bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint3
 template <Acceleration A>
 void EventLoopOf<A>::consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) const {
     if (!bodies_.may_meet(records_[i].id, records_[j].id)) return;
-    const Time t = predict_pair(i, j, image, std::min(best.time, horizon_));
+    const Time t = predict_pair(i, j, image, best.time);
     if (best.time < t) return;
     const NextEvent event{t, records_[j].id, records_[j].anchor.stamp, image.x, image.y, j};
     if (t < best.time || precedes(event, best, i)) best = event;

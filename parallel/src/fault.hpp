@@ -3,9 +3,11 @@
 // compiler looks, and no instruction is left of it.
 #pragma once
 
+#include <cstdint>
+
 namespace carom {
 
-enum class Fault {
+enum class Fault : std::uint8_t {
     kNone,
     kLateBound,      ///< a partner is passed over though it may come sooner
     kStalePartner,   ///< a partner that has gone another way is hit all the same

@@ -124,7 +124,6 @@ Physics derive_physics(const Scene& scene, std::span<const Ball> balls) {
     Physics p;
     p.domain = scene.domain ? *scene.domain : bounding_domain(scene, balls);
     p.gravity = scene.gravity;
-    if (!scene.attractors.empty()) p.field_interval = scene.field_interval;
     p.restitution_rule = scene.restitution_rule;
     p.speed_factor = scene.speed_factor;
     p.in_float = scene.precision == Precision::kFloat;

@@ -30,8 +30,6 @@ struct Physics {
     double speed_factor = 1;
     bool in_float = false;      ///< balls' states are rounded to float at each event
     bool loses_energy = false;  ///< some restitution, or the speed factor, is below 1
-    /// How long the attractors' field is held; infinite where there are none.
-    double field_interval = std::numeric_limits<double>::infinity();
     double typical_virial = 1;  ///< of a collision: mass * speed * diameter
     Clock clock;
     std::optional<EmpiricalSteps> empirical;  ///< where that is the method

@@ -131,7 +131,6 @@ Physics physics_of(const Physics& before, const Scene& rules, const std::vector<
     const Physics derived = derive_physics(rules, balls);
     Physics p = before;
     p.gravity = rules.gravity;
-    p.field_interval = derived.field_interval;
     p.loses_energy = derived.loses_energy;
     p.empirical = derived.empirical;
     if (p.contact_time == 0) p.contact_time = derived.contact_time;
