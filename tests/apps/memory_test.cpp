@@ -21,6 +21,11 @@ std::string scene_of(const std::string& count) {
            count + R"(, "packing_fraction": 0.1, "temperature": 1}], "until": 0})";
 }
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__  // as g++ says it
+#endif
+#endif
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool kHasLimits = false;  // the sanitizer takes terabytes of addresses for itself
 #else
