@@ -37,30 +37,39 @@ struct Failure {
 
 struct EnoughCollisions {};
 
-/// A world and what its collisions fold to.
+/// What the collisions until now come to.
+struct Seen {
+    Hash events;
+    std::vector<std::uint32_t> by_ball;  ///< how many of them each ball had
+};
+
+/// A world and what is seen of it.
 class Watched {
  public:
     Watched(const std::string& name, World world) : name_(name), world_(std::move(world)) {
-        events_ = std::make_unique<Hash>();
+        seen_ = std::make_unique<Seen>();
+        seen_->by_ball.resize(world_.ball_count());
         listen(nullptr);
     }
     /// Hands each collision to `listener` besides.
     void listen(std::function<void(const Collision&)> listener) {
-        world_.on_collision([events = events_.get(), listener = std::move(listener)](const Collision& c) {
-            *events << c.time << std::uint64_t(c.kind) << std::uint64_t{c.i} << std::uint64_t{c.j} << c.point
-                    << c.normal << c.impulse;
+        world_.on_collision([seen = seen_.get(), listener = std::move(listener)](const Collision& c) {
+            seen->events << c.time << std::uint64_t(c.kind) << std::uint64_t{c.i} << std::uint64_t{c.j}
+                         << c.point << c.normal << c.impulse;
+            ++seen->by_ball[c.i];
+            if (c.kind == CollisionKind::kBall) ++seen->by_ball[c.j];
             if (listener) listener(c);
         });
     }
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] World& world() { return world_; }
-    [[nodiscard]] std::uint64_t events() const { return events_->value; }
-    void set_events(std::uint64_t events) { events_->value = events; }
+    [[nodiscard]] const Seen& seen() const { return *seen_; }
+    void set_seen(const Seen& seen) { *seen_ = seen; }
 
  private:
     std::string name_;
     World world_;
-    std::unique_ptr<Hash> events_;  // its address stays when this is moved
+    std::unique_ptr<Seen> seen_;  // its address stays when this is moved
 };
 
 class Examination {
@@ -101,14 +110,14 @@ class Examination {
     std::vector<Shown> plain_;
     std::vector<Collision> first_events_;
     std::optional<Snapshot> snapshot_;
-    std::uint64_t events_at_snapshot_ = 0;
+    Seen seen_at_snapshot_;
     std::size_t snapshot_stop_ = 0;
 };
 
 Examination::Shown Examination::shown(Watched& w) {
     const Counts counts = w.world().counts();
-    return {w.world().state_hash(), w.events(),         counts.ball_collisions,
-            counts.wall_collisions, w.world().virial(), w.world().energy()};
+    return {w.world().state_hash(), w.seen().events.value, counts.ball_collisions,
+            counts.wall_collisions, w.world().virial(),    w.world().energy()};
 }
 
 WorldOptions Examination::drawn_options() {
@@ -126,7 +135,10 @@ WorldOptions Examination::drawn_options() {
 void Examination::check_state(Watched& w) {
     if (const std::vector<Violation> found = w.world().validate(); !found.empty())
         throw Failure{"validate", w.name() + ": " + found.front().what};
-    if (const std::string fault = find_misplaced(scene_, w.world()); !fault.empty())
+    double events = 0;
+    for (const std::uint32_t of_ball : w.seen().by_ball) events = std::max<double>(events, of_ball);
+    if (!scene_.attractors.empty()) events += w.world().time() / scene_.field_interval;
+    if (const std::string fault = find_misplaced(scene_, w.world(), events); !fault.empty())
         throw Failure{"overlap", w.name() + ": " + fault};
 }
 
@@ -151,7 +163,7 @@ void Examination::run_plain(Verdict& verdict) {
             plain_.push_back(shown(plain));
             if (reached_ == snapshot_stop_ && scene_.method == Method::kEvent) {
                 snapshot_ = plain.world().snapshot();
-                events_at_snapshot_ = plain.events();
+                seen_at_snapshot_ = plain.seen();
             }
             ++reached_;
         }
@@ -169,7 +181,7 @@ void Examination::run_plain(Verdict& verdict) {
 void Examination::restore_and_repeat(Watched& plain, const Snapshot& snapshot) {
     plain.listen(nullptr);
     plain.world().restore(snapshot);
-    plain.set_events(events_at_snapshot_);
+    plain.set_seen(seen_at_snapshot_);
     for (std::size_t k = snapshot_stop_; k < reached_; ++k) {
         plain.world().advance_to(stops_[k]);
         if (shown(plain) != plain_[k])
@@ -258,7 +270,7 @@ void Examination::run_other(const std::string& kind, const WorldOptions& options
     std::optional<Watched> watched;
     if (resumes && snapshot_) {
         watched.emplace(name, World(scene_, options, *snapshot_));
-        watched->set_events(events_at_snapshot_);
+        watched->set_seen(seen_at_snapshot_);
         next = snapshot_stop_;
     } else {
         watched.emplace(name, World(scene_, options));

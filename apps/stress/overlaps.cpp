@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace carom::stress {
 namespace {
@@ -12,18 +13,16 @@ namespace {
 constexpr std::size_t kMostBalls = 300;
 
 /// By how much a centre may be off, as a length. A contact in double is met to a few ulps of the places and
-/// of the time. What rounds to float at each event walks at random, half an ulp a step, while it is pressed
-/// against several bodies: four standard deviations, if one ball had all the collisions.
-double tolerance(const Scene& scene, const World& world, const PlaneVectors& positions) {
+/// of the time. What rounds to float is off by up to half an ulp along either axis at each event, and errors
+/// of like steps add up: two balls that lie on each other and move along.
+double tolerance(const Scene& scene, double events, const PlaneVectors& positions) {
     double farthest = 0;
     double widest = 0;
     for (const Vec2& x : positions) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
     for (const Ball& b : scene.balls) widest = std::max(widest, b.radius);
     const double in_double = 0x1p-46 * (farthest + widest) + 1e-9 * widest;
     if (scene.precision == Precision::kDouble) return in_double;
-    const Counts counts = world.counts();
-    const double collisions = double(counts.ball_collisions + counts.wall_collisions);
-    return in_double + 0x1p-24 * (farthest + widest) * (16 + 4 * std::sqrt(2 * collisions));
+    return in_double + 0x1p-24 * (farthest + widest) * (16 + 2 * std::numbers::sqrt2 * events);
 }
 
 double depth(const Scene& scene, const PlaneVectors& positions, std::size_t i, std::size_t j) {
@@ -54,10 +53,10 @@ std::string find_outside(const Scene& scene, const PlaneVectors& positions, doub
 
 }  // namespace
 
-std::string find_misplaced(const Scene& scene, const World& world) {
+std::string find_misplaced(const Scene& scene, const World& world, double events) {
     if (scene.method == Method::kEmpirical) return {};
     const PlaneVectors positions = world.positions();
-    const double allowed = tolerance(scene, world, positions);
+    const double allowed = tolerance(scene, events, positions);
     if (scene.domain)
         if (std::string found = find_outside(scene, positions, allowed); !found.empty()) return found;
     if (scene.allows_overlap || positions.size() > kMostBalls) return {};

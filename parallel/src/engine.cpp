@@ -64,6 +64,7 @@ class SerialEngine final : public Engine {
             }
         });
     }
+    std::uint32_t most_events() const override { return Engine::most_events(loop_->records()); }
     void audit(std::vector<Violation>& found) const override { loop_->audit(found); }
     void listen(std::function<void(const Collision&)> listener) override {
         listener_ = std::move(listener);
@@ -89,6 +90,12 @@ void Engine::count(const CollisionNote& note) {
         ++counts_.ball_collisions;
         virial_ += note.virial;
     }
+}
+
+std::uint32_t Engine::most_events(std::span<const BallRecord> records) {
+    std::uint32_t most = 0;
+    for (const BallRecord& r : records) most = std::max(most, r.anchor.stamp);
+    return most;
 }
 
 std::unique_ptr<Engine> make_engine(const Bodies& bodies, const EngineStart& start, const Executor& executor,

@@ -31,6 +31,8 @@ class Engine {
     virtual void read_domains(std::span<std::uint32_t> domains) const { (void)domains; }
     /// The same balls as they were left by their last events until `t`.
     virtual void save(const Time& t, Snapshot& snapshot) const = 0;
+    /// Events of the ball that has had most of them since the engine was made; 0 where the method is steps.
+    [[nodiscard]] virtual std::uint32_t most_events() const { return 0; }
     /// Every broken rule of the loops.
     virtual void audit(std::vector<Violation>& found) const = 0;
     /// Collisions are told from the time advanced to last on; an empty function turns it off.
@@ -45,6 +47,7 @@ class Engine {
  protected:
     Engine(const Bodies& bodies, const EngineStart& start);
     void count(const CollisionNote& note);
+    [[nodiscard]] static std::uint32_t most_events(std::span<const BallRecord> records);
 
     const Bodies& bodies_;
     std::function<void(const Collision&)> listener_;

@@ -40,6 +40,7 @@ class WindowedEngine final : public Engine {
     void read(const Time& t, std::span<BallState> states) const override;
     void read_domains(std::span<std::uint32_t> domains) const override;
     void save(const Time& t, Snapshot& snapshot) const override;
+    [[nodiscard]] std::uint32_t most_events() const override;
     void audit(std::vector<Violation>& found) const override;
     void listen(std::function<void(const Collision&)> listener) override;
     [[nodiscard]] double working_seconds() const override {

@@ -136,6 +136,12 @@ void WindowedEngine::save(const Time& t, Snapshot& snapshot) const {
     });
 }
 
+std::uint32_t WindowedEngine::most_events() const {
+    std::uint32_t most = 0;
+    for (const DomainState& d : domains_) most = std::max(most, Engine::most_events(held(d).records));
+    return most;
+}
+
 void WindowedEngine::audit(std::vector<Violation>& found) const {
     const std::unique_ptr<EventLoop> loop = make_event_loop(bodies_);
     loop->clear({bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0},

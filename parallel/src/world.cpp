@@ -163,7 +163,8 @@ std::vector<Violation> World::validate() const {
     state_->engine->audit(found);
     if (state_->bodies().physics.empirical) return found;  // finds contacts by the overlaps that steps leave
     // An overlap that was there at the start is never deepened: a pair in it is hit where it approaches.
-    const double allowed = state_->rounding_of_overlaps() + state_->cast->deepest_overlap;
+    const double allowed =
+        state_->rounding_of_overlaps() + state_->cast->deepest_overlap + state_->inherited_overlap;
     if (const double deepest = max_overlap(); !(deepest <= allowed))
         found.push_back({"two bodies overlap by " + shown(deepest) + " of their radii's sum"});
     return found;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
@@ -144,6 +145,8 @@ void World::State::continue_with(std::shared_ptr<const Cast> next, const Snapsho
     seconds = s.time;
     now = bodies().physics.clock.from_seconds(seconds);
     forget();
+    // Events, and what they have rounded, are counted from here on.
+    inherited_overlap = bodies().physics.in_float ? max_overlap() : 0;
 }
 
 void World::State::forget() {
@@ -246,12 +249,9 @@ double World::State::rounding_of_overlaps() const {
         smallest = std::min(smallest, bodies().radius.of(i));
         farthest = std::max(farthest, states()[i].position.cwiseAbs().maxCoeff());
     }
-    // Each of two centres is rounded by half an ulp along either axis, anew at each event. What is pressed
-    // against several bodies meets them time and again without room to part: its place walks at random,
-    // through eight times as many events as others have, four standard deviations wide.
-    const Counts counts = engine->counts();
-    const double collisions = double(counts.ball_collisions + counts.wall_collisions);
-    const double roundings = 16 + 4 * std::sqrt(8 * 2 * collisions / std::max<double>(1, bodies().moving));
+    // Each of two centres is rounded by up to half an ulp along either axis, anew at each event. Two that lie
+    // on each other and move along together bounce in steps as like as their errors: these add up.
+    const double roundings = 16 + std::numbers::sqrt2 * engine->most_events();
     return kInDouble + roundings * double(std::numeric_limits<float>::epsilon()) * farthest / (2 * smallest);
 }
 

@@ -109,6 +109,7 @@ class World::State {
     std::uint64_t field_updates = 0;
     Time now;
     double seconds = 0;
+    double inherited_overlap = 0;  // deepest when the engine was made, where states are rounded to float
     std::vector<std::uint64_t> user_data;  // by id
 
  private:
