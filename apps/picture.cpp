@@ -30,6 +30,8 @@ Box bounding_box(const PictureContent& content) {
     for (const Attractor& attractor : content.attractors) {
         include_disc(box, attractor.position, attractor.softening);
     }
+    for (const Sensor& sensor : content.sensors)
+        for (const Vec2& corner : sensor.corners) include_disc(box, corner, sensor.radius);
     return box;
 }
 
@@ -67,6 +69,7 @@ void draw_picture(cairo_t* context, const PictureContent& content, const Picture
     cairo_rectangle(context, layout.left, layout.top, layout.right - layout.left, layout.bottom - layout.top);
     cairo_clip(context);
     draw_attractors(context, content, layout);
+    draw_sensors(context, content, layout);
     if (content.balls.size() <= kVectorBalls) {
         draw_balls_singly(context, content, layout, colouring);
     } else {

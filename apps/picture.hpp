@@ -25,6 +25,7 @@ struct PictureContent {
     std::vector<Ball> balls;
     std::vector<Wall> walls;
     std::vector<Attractor> attractors;
+    std::vector<Sensor> sensors;
     ColourBy colour_by = ColourBy::kSpeed;
     std::vector<std::uint32_t> numbers;  ///< collisions or domains, one a ball, where the colours show them
     std::optional<double> colour_top;  ///< value at the colours' upper end; where absent it follows the balls

@@ -84,6 +84,32 @@ void draw_walls(cairo_t* context, const PictureContent& content, const PictureLa
     cairo_stroke(context);
 }
 
+void draw_sensors(cairo_t* context, const PictureContent& content, const PictureLayout& layout) {
+    cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+    for (const Sensor& sensor : content.sensors) {
+        const auto trace = [&] {
+            for (const Vec2& corner : sensor.corners) {
+                const Vec2 at = layout.to_pixel(corner);
+                cairo_line_to(context, at.x(), at.y());
+            }
+            cairo_close_path(context);
+        };
+        cairo_push_group(context);
+        set_colour(context, palette::kSensor);
+        trace();
+        cairo_fill_preserve(context);
+        cairo_set_line_width(context, 2 * sensor.radius * layout.scale);
+        cairo_stroke(context);
+        cairo_pop_group_to_source(context);
+        cairo_paint_with_alpha(context, 0.16);
+        set_colour(context, palette::kSensor, 0.8);
+        cairo_set_line_width(context, 1.2 * layout.unit);
+        trace();
+        cairo_stroke(context);
+    }
+}
+
 void draw_frame(cairo_t* context, const PictureContent& content, const PictureLayout& layout) {
     const double unit = layout.unit;
     // A wall's line stands outside the view by half its width, so that its inner edge is where balls turn.

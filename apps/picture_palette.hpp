@@ -15,6 +15,7 @@ inline constexpr Colour kFrame{0.72, 0.75, 0.80};
 inline constexpr Colour kWall{0.94, 0.91, 0.84};
 inline constexpr Colour kStaticBall{0.36, 0.39, 0.45};
 inline constexpr Colour kStaticHatch{0.53, 0.56, 0.62};
+inline constexpr Colour kSensor{0.35, 0.85, 0.72};
 inline constexpr Colour kPullGlow{1.0, 0.62, 0.24};
 inline constexpr Colour kPushGlow{0.36, 0.68, 1.0};
 

@@ -15,6 +15,9 @@ void draw_ground(cairo_t* context, const PictureLayout& layout);
 /// Attractors: a dark disc in a glow, warm where it pulls and blue where it pushes.
 void draw_attractors(cairo_t* context, const PictureContent& content, const PictureLayout& layout);
 
+/// Sensors: a veil over where they reach, and the line of their corners.
+void draw_sensors(cairo_t* context, const PictureContent& content, const PictureLayout& layout);
+
 /// The balls one by one.
 void draw_balls_singly(cairo_t* context, const PictureContent& content, const PictureLayout& layout,
                        const Colouring& colouring);

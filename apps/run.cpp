@@ -39,6 +39,16 @@ void write_event(EventsCsv& events, const Collision& collision) {
 }
 
 void listen(World& world, Driver& driver, RunOutputs& outputs, bool observes) {
+    if (outputs.sensings) {
+        world.on_sensing([&driver, &outputs](const Sensing& sensing) {
+            if (driver.failure) return;
+            try {
+                outputs.sensings->write(sensing);
+            } catch (...) {
+                driver.failure = std::current_exception();
+            }
+        });
+    }
     if (!outputs.events && !observes) return;
     world.on_collision([&driver, &outputs, observes](const Collision& collision) {
         if (driver.failure) return;
@@ -152,6 +162,7 @@ Summary summary_of(const World& world, const Scene& scene, const RunRecord& reco
 
 void write_end(const World& world, const Scene& scene, const RunOptions& options, RunOutputs& outputs) {
     if (outputs.events) outputs.events->commit();
+    if (outputs.sensings) outputs.sensings->commit();
     if (outputs.observation) outputs.observation->commit();
     if (outputs.final_state) {
         std::string text;
@@ -170,6 +181,7 @@ void write_end(const World& world, const Scene& scene, const RunOptions& options
 RunOutputs::RunOutputs(const RunOptions& options, const RunRecord& done) {
     if (!options.checkpoint.empty()) const AtomicFile can_be_written(options.checkpoint);
     open_if_named(final_state, options.final_state);
+    open_if_named(sensings, options.sensings);
     open_if_named(picture, options.picture);
     if (options.summary != "-") summary.emplace(options.summary);
     // These last: they may empty their files, which is not to happen when another output fails. A list of

@@ -13,6 +13,7 @@
 #include <carom/parallel/world.hpp>
 
 #include "observation.hpp"
+#include "sensings_csv.hpp"
 
 namespace carom::app {
 
@@ -38,6 +39,7 @@ struct RunOptions {
     std::optional<double> every;  ///< given exactly when `trajectory` or an observation is
     ObservationOptions observation;
     std::string events;
+    std::string sensings;
     std::string final_state;
     std::string picture;
     std::string summary = "-";
@@ -56,6 +58,7 @@ struct RunOutputs {
     std::unique_ptr<Trajectory> trajectory;
     std::optional<Observation> observation;
     std::optional<EventsCsv> events;
+    std::optional<SensingsCsv> sensings;
     std::optional<AtomicFile> final_state;
     std::optional<AtomicFile> picture;
     std::optional<AtomicFile> summary;  ///< none: standard output

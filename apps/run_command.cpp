@@ -32,7 +32,8 @@ result depends on --step, --max-travel and --tolerance, and not on --threads or 
 
 Files ending in .xyz are extended XYZ, one frame after the other, with enough digits to read back the same bits. --trajectory
 writes H5MD (compressed, needs HDF5) where its name ends in .h5, a LAMMPS dump where it ends in .lammpstrj or .dump.
---events writes CSV, one collision a line: time,kind,i,j,x,y,nx,ny,impulse. The summary is one JSON object. All outputs
+--events writes CSV, one collision a line: time,kind,i,j,x,y,nx,ny,impulse. --sensings does so for balls that come into the
+scene's sensors or leave them: time,sensor,ball,enters,x,y,vx,vy. The summary is one JSON object. All outputs
 but these appear whole, at the end: the trajectory and --observables grow as the run goes, and so does --events with
 --checkpoint. A rate or pressure of --observables is the mean since the row before.
 
@@ -57,6 +58,7 @@ Examples:
 void require_distinct_files(const RunOptions& options) {
     std::vector<NamedPath> files = {{"--trajectory", options.trajectory},
                                     {"--events", options.events},
+                                    {"--sensings", options.sensings},
                                     {"--final", options.final_state},
                                     {"--picture", options.picture},
                                     {"--observables", options.observation.observables},
@@ -115,6 +117,14 @@ void take_method(Scene& scene, const RunOptions& options) {
     if (options.max_travel) scene.max_travel = options.max_travel;
 }
 
+void require_sensors(const Scene& scene, const RunOptions& options) {
+    if (options.sensings.empty()) return;
+    if (scene.sensors.empty())
+        throw CLI::ValidationError("--sensings", "belongs to scenes with sensors, this has none");
+    if (!options.checkpoint.empty() || !options.resume.empty())
+        throw CLI::ValidationError("--sensings", "does not go with --checkpoint and --resume");
+}
+
 // So do the settings that both methods have.
 void take_settings(Scene& scene, const RunOptions& options) {
     scene.precision = options.precision.value_or(scene.precision);
@@ -131,6 +141,7 @@ int run(const RunOptions& options) {
     Scene scene = read_scene(options.scene);
     take_settings(scene, options);
     take_method(scene, options);
+    require_sensors(scene, options);
     if (options.check_memory) require_memory(scene);
     const double until = options.until.value_or(scene.until);
     std::optional<Checkpoint> checkpoint = checkpoint_of(options, until);
@@ -170,6 +181,9 @@ void add_output_options(CLI::App& command, RunOptions& options) {
                          "Of positions and velocities in .xyz files (default: as simulated)")
         ->group(group);
     command.add_option("--events", options.events, "Every collision, in time order")
+        ->type_name("FILE.csv")
+        ->group(group);
+    command.add_option("--sensings", options.sensings, "Who comes into the scene's sensors and leaves them")
         ->type_name("FILE.csv")
         ->group(group);
     command.add_option("--final", options.final_state, "All balls at the end")

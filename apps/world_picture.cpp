@@ -26,6 +26,7 @@ PictureContent picture_of(const Scene& scene, const World& world, const PictureL
     content.balls = world.balls();
     content.walls = scene.walls;
     content.attractors = scene.attractors;
+    content.sensors = scene.sensors;
     content.colour_by = look.colour_by;
     content.numbers = numbers_of(world, look.colour_by, tally);
     content.colour_top = look.colour_top;

@@ -20,6 +20,11 @@ int main() {
         if (c.impulse > 0.5) hits.push_back(c);
     });
 
+    // A goal that balls fly through: who comes in, at the true time.
+    world.set_sensors({{.corners = {{14, 0}, {16, 0}, {16, 3}, {14, 3}}}});
+    int goals = 0;
+    world.on_sensing([&goals](const carom::Sensing& s) { goals += s.enters; });
+
     const std::uint32_t player = 0;
     std::size_t heard = 0;
     for (int frame = 0; frame < 300; ++frame) {
@@ -38,10 +43,10 @@ int main() {
     }
 
     const carom::Ball ball = world.ball(player);
-    std::printf("%zu balls, %zu hard hits; the player is at %.3f %.3f\n", world.ball_count(), heard,
-                ball.position.x(), ball.position.y());
+    std::printf("%zu balls, %zu hard hits, %d goals; the player is at %.3f %.3f\n", world.ball_count(), heard,
+                goals, ball.position.x(), ball.position.y());
     if (const auto hit = world.cast_ray({8, 9}, {0, -1}, 20))
         std::printf("from above the middle one sees a %s at distance %.3f\n",
                     hit->kind == carom::CollisionKind::kBall ? "ball" : "wall", hit->distance);
-    return world.validate().empty() && heard > 0 ? 0 : 1;
+    return world.validate().empty() && heard > 0 && goals > 0 ? 0 : 1;
 }

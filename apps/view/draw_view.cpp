@@ -97,6 +97,21 @@ void draw_looked_at(Canvas& canvas, const BallFacts& facts, const Camera& camera
     }
 }
 
+/// Where it reaches: the sides moved out by the radius, and rings around the corners.
+void draw_sensor(Canvas& canvas, const Sensor& sensor, const Camera& camera) {
+    const std::uint32_t colour = pixel_of(mix(palette::kGround, palette::kSensor, 0.7));
+    const std::size_t n = sensor.corners.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        const Vec2& from = sensor.corners[k];
+        const Vec2& to = sensor.corners[(k + 1) % n];
+        if (sensor.radius > 0) canvas.ring(camera.to_pixel(from), sensor.radius * camera.scale(), 1, colour);
+        if (n == 1) return;
+        const Vec2 along = (to - from).normalized();
+        const Vec2 out = sensor.radius * Vec2(along.y(), -along.x());
+        canvas.line(camera.to_pixel(from + out), camera.to_pixel(to + out), 1.2, colour);
+    }
+}
+
 }  // namespace
 
 void draw_view(Canvas& canvas, const Simulation& simulation, const ViewControls& controls,
@@ -107,6 +122,7 @@ void draw_view(Canvas& canvas, const Simulation& simulation, const ViewControls&
     canvas.clear(pixel_of(palette::kGround));
     draw_domain(canvas, scene, camera);
     draw_attractors(canvas, simulation.world().attractors(), camera);
+    for (const Sensor& sensor : scene.sensors) draw_sensor(canvas, sensor, camera);
     draw_balls(canvas, simulation, controls);
     for (const Wall& wall : scene.walls)
         canvas.line(camera.to_pixel(wall.from), camera.to_pixel(wall.to), 2, pixel_of(palette::kWall));

@@ -22,6 +22,7 @@ constexpr double kLargestInFloat = 1e30;
 constexpr double kSideTolerance = 1e-12;
 // Shorter ways in a step, in radii, would leave no digits to tell them.
 constexpr double kLeastTravel = 1e-9;
+constexpr std::size_t kMostCorners = 64;  // of a sensor; nobody needs more
 // Packing of equal discs in the triangular lattice, the densest there is: pi / (2 sqrt 3).
 constexpr double kDensestPacking = std::numbers::pi / (2 * std::numbers::sqrt3);
 constexpr std::array<std::string_view, 2> kAxisName = {"x", "y"};
@@ -164,6 +165,37 @@ void check_attractor(const Attractor& attractor, const Place& at) {
     require_finite(attractor.position, at, "position");
     require_finite(attractor.strength, at, "strength");
     require_not_negative(attractor.softening, at, "softening");
+}
+
+/// Whether all corners lie to the same side of each side's line.
+bool is_convex(const std::vector<Vec2>& corners) {
+    const std::size_t n = corners.size();
+    bool is_left = false;
+    bool is_right = false;
+    for (std::size_t k = 0; k < n; ++k) {
+        const Vec2 side = corners[(k + 1) % n] - corners[k];
+        for (std::size_t j = 2; j < n; ++j) {
+            const double distance = cross<double>(side, corners[(k + j) % n] - corners[k]);
+            is_left = is_left || !(distance <= 0);
+            is_right = is_right || !(distance >= 0);
+            if (distance == 0) return false;
+        }
+    }
+    return is_left != is_right;
+}
+
+void check_sensor(const Sensor& sensor, const Place& at) {
+    if (sensor.corners.empty() || sensor.corners.size() > kMostCorners)
+        throw SceneError(at.of("corners"), "must be 1 to " + std::to_string(kMostCorners) + ", are " +
+                                               std::to_string(sensor.corners.size()));
+    for (const Vec2& corner : sensor.corners) require_finite(corner, at, "corners");
+    require_not_negative(sensor.radius, at, "radius");
+    if (sensor.corners.size() == 2 &&
+        !(length_squared<double>(sensor.corners[1] - sensor.corners[0]) >= kSmallest * kSmallest))
+        throw SceneError(at.of("corners"), "must be at least 1e-100 apart");
+    if (sensor.corners.size() > 2 && !is_convex(sensor.corners))
+        throw SceneError(at.of("corners"),
+                         "must go once around a convex polygon, no three of them on one line");
 }
 
 void check_radii(const Fill& fill, const Place& at) {
@@ -309,6 +341,10 @@ void check(const Attractor& attractor, std::size_t index) {
     check_attractor(attractor, {"attractors", index});
 }
 
+void check(const Sensor& sensor, std::size_t index) {
+    check_sensor(sensor, {"sensors", index});
+}
+
 void check_gravity(const Vec2& gravity) {
     require_finite(gravity, kScene, "gravity");
 }
@@ -322,6 +358,9 @@ void check(const Scene& scene) {
         check_fill(scene.fills[i], scene.domain, {"fill", i});
     for (std::size_t i = 0; i < scene.walls.size(); ++i) check(scene.walls[i], scene, i);
     for (std::size_t i = 0; i < scene.attractors.size(); ++i) check(scene.attractors[i], i);
+    for (std::size_t i = 0; i < scene.sensors.size(); ++i) check(scene.sensors[i], i);
+    if (!scene.sensors.empty() && scene.method == Method::kEmpirical)
+        throw SceneError("sensors", "must be none where method is empirical");
     if (scene.domain) check_widths(scene, *scene.domain);
 }
 

@@ -21,12 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 using Keys = std::string_view[];
 
-constexpr Keys kSceneKeys = {"name",         "domain",        "gravity",    "restitution_rule",
-                             "contact_time", "speed_factor",  "balls",      "fill",
-                             "balls_file",   "walls",         "attractors", "field_interval",
-                             "precision",    "allow_overlap", "method",     "step",
-                             "tolerance",    "max_travel",    "until",      "description",
-                             "$schema"};
+constexpr Keys kSceneKeys = {"name",         "domain",       "gravity",       "restitution_rule",
+                             "contact_time", "speed_factor", "balls",         "fill",
+                             "balls_file",   "walls",        "attractors",    "field_interval",
+                             "sensors",      "precision",    "allow_overlap", "method",
+                             "step",         "tolerance",    "max_travel",    "until",
+                             "description",  "$schema"};
 constexpr Keys kDomainKeys = {"min", "max", "boundary", "restitution"};
 constexpr Keys kBallKeys = {"position",    "velocity", "acceleration", "radius", "mass",
                             "restitution", "static",   "category",     "mask"};
@@ -35,6 +35,7 @@ constexpr Keys kFillKeys = {"count",   "packing_fraction", "radius",      "mass"
                             "region",  "category",         "mask"};
 constexpr Keys kWallKeys = {"from", "to", "restitution", "category", "mask"};
 constexpr Keys kAttractorKeys = {"position", "strength", "softening"};
+constexpr Keys kSensorKeys = {"corners", "radius", "category", "mask"};
 constexpr Keys kRangeKeys = {"min", "max"};
 
 constexpr std::array<std::pair<std::string_view, Boundary>, 3> kBoundaries = {
@@ -174,6 +175,21 @@ Attractor read_attractor(const Json& value, const Place& place) {
     return attractor;
 }
 
+Sensor read_sensor(const Json& value, const Place& place) {
+    const Members members(value, place, kSensorKeys);
+    Sensor sensor;
+    members.require({"corners"});
+    members.with("corners", [&](const Json& corners, const Place& at) {
+        if (!corners.is_array())
+            throw SceneError(at.text(), fmt::format("must be an array of points, is {}", kind_of(corners)));
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            sensor.corners.push_back(read_pair(corners[k], {&at, {}, k}));
+    });
+    members.number("radius", sensor.radius);
+    sensor.filter = read_filter(members);
+    return sensor;
+}
+
 /// Collects a scene member by member.
 class SceneReader {
  public:
@@ -185,7 +201,7 @@ class SceneReader {
         if (known == std::end(kSceneKeys)) fail_unknown_key({nullptr, key, {}}, kSceneKeys);
         if (is_given(key)) throw SceneError(std::string(key), "is given twice");
         given_.push_back(*known);
-        return key == "balls" || key == "fill" || key == "walls" || key == "attractors";
+        return key == "balls" || key == "fill" || key == "walls" || key == "attractors" || key == "sensors";
     }
 
     void take(const Json& value, const Place& place) {
@@ -256,6 +272,8 @@ class SceneReader {
             scene_.fills.push_back(read_fill(value, place));
         else if (place.key == "walls")
             scene_.walls.push_back(read_wall(value, place));
+        else if (place.key == "sensors")
+            scene_.sensors.push_back(read_sensor(value, place));
         else
             scene_.attractors.push_back(read_attractor(value, place));
     }

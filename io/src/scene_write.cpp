@@ -149,6 +149,15 @@ void put_members(ObjectWriter& object, const Attractor& attractor) {
     object.put_unless(Attractor{}.softening, "softening", attractor.softening);
 }
 
+void put_members(ObjectWriter& object, const Sensor& sensor) {
+    std::string corners;
+    for (const Vec2& corner : sensor.corners)
+        corners += fmt::format("{}[{}, {}]", corners.empty() ? "" : ", ", json(corner.x()), json(corner.y()));
+    object.raw("corners", "[" + corners + "]");
+    object.put_unless(Sensor{}.radius, "radius", sensor.radius);
+    put_filter(object, sensor.filter);
+}
+
 template <class T>
 std::string json_object(const T& value) {
     std::string text = "{";
@@ -191,6 +200,7 @@ std::string write_scene(const Scene& scene) {
     put_list(object, "fill", scene.fills);
     put_list(object, "walls", scene.walls);
     put_list(object, "attractors", scene.attractors);
+    put_list(object, "sensors", scene.sensors);
     object.put_unless(usual.field_interval, "field_interval", scene.field_interval);
     object.put("until", scene.until);
     return text + "\n}\n";

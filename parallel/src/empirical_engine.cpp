@@ -254,6 +254,14 @@ void EmpiricalEngine::save(const Time&, Snapshot&) const {
     throw SnapshotError("the empirical method keeps no snapshots");
 }
 
+void EmpiricalEngine::visit_flights(const Time&, const Time&, const VisitFlights&) const {
+    throw std::logic_error("the empirical method knows no flights from event to event");
+}
+
+void EmpiricalEngine::follow(std::function<void(const Time&)> follower) {
+    if (follower) visit_flights({}, {}, {});
+}
+
 std::unique_ptr<Engine> make_empirical_engine(const Bodies& bodies, const EngineStart& start,
                                               const Executor& executor, bool count_missed) {
     return std::make_unique<EmpiricalEngine>(bodies, start, executor, count_missed);

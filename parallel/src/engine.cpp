@@ -43,6 +43,7 @@ class SerialEngine final : public Engine {
     void advance_to(const Time& end, const Time&) override {
         loop_->advance_to(end, true);
         counts_.events = loop_->events;
+        if (follower_) tell_follower(end);
     }
     void renew_field(const Time& t) override {
         loop_->renew_field(t);
@@ -66,14 +67,35 @@ class SerialEngine final : public Engine {
     }
     std::uint32_t most_events() const override { return Engine::most_events(loop_->records()); }
     void audit(std::vector<Violation>& found) const override { loop_->audit(found); }
+    void visit_flights(const Time& from, const Time& to, const VisitFlights& visit) const override {
+        executor_.for_ranges(loop_->size(), 4096, [&](std::size_t first, std::size_t last) {
+            FlightList flights(bodies_);
+            for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
+                visit(loop_->id(i), flights.of(loop_->records()[i].anchor, loop_->extra(i).acceleration,
+                                               loop_->overwritten, loop_->last_overwritten(i), from, to));
+        });
+    }
+    void follow(std::function<void(const Time&)> follower) override {
+        follower_ = std::move(follower);
+        loop_->keeps_anchors = static_cast<bool>(follower_);
+        loop_->on_part = nullptr;
+        if (follower_) loop_->on_part = [this](const Time& t) { tell_follower(t); };
+        loop_->forget_anchors();
+    }
     void listen(std::function<void(const Collision&)> listener) override {
         listener_ = std::move(listener);
         loop_->listens = static_cast<bool>(listener_);
     }
 
  private:
+    void tell_follower(const Time& t) {
+        follower_(t);
+        loop_->forget_anchors();
+    }
+
     const Executor& executor_;
     std::unique_ptr<EventLoop> loop_;
+    std::function<void(const Time&)> follower_;
 };
 
 }  // namespace
@@ -90,6 +112,28 @@ void Engine::count(const CollisionNote& note) {
         ++counts_.ball_collisions;
         virial_ += note.virial;
     }
+}
+
+std::span<const Flight> FlightList::of(const Anchor& last, const Vec2& acceleration,
+                                       std::span<const OverwrittenAnchor> overwritten, std::uint32_t previous,
+                                       const Time& from, const Time& to) {
+    flights_.clear();
+    add(last, acceleration, to);
+    for (std::uint32_t k = previous; k != kNowhere; k = overwritten[k].previous) {
+        if (!flights_.empty() && flights_.back().anchor.time <= from) break;
+        const OverwrittenAnchor& o = overwritten[k];
+        add({o.x, o.y, o.vx, o.vy, o.time, 0, 0, {}}, acceleration, to);
+    }
+    std::ranges::reverse(flights_);
+    return flights_;
+}
+
+/// Adds a flight before those that are there.
+void FlightList::add(const Anchor& anchor, const Vec2& acceleration, const Time& to) {
+    if (anchor.time > to) return;
+    const Vec2 a = bodies_.accelerates_each() ? acceleration : bodies_.physics.gravity;
+    const Time end = flights_.empty() ? to : flights_.back().anchor.time;
+    flights_.push_back({anchor, {{anchor.x, anchor.y}, {anchor.vx, anchor.vy}, a}, end});
 }
 
 std::uint32_t Engine::most_events(std::span<const BallRecord> records) {

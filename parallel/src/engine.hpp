@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include <carom/core/motion.hpp>
+
 #include "ball_record.hpp"
 #include "bodies.hpp"
 #include "engine_state.hpp"
@@ -15,6 +17,13 @@
 #include "ordered_sum.hpp"
 
 namespace carom {
+
+/// A ball's way from one event to the next, or to the end of what is asked for.
+struct Flight {
+    Anchor anchor;
+    Motion<double> motion;  ///< since the anchor
+    Time end;
+};
 
 class Engine {
  public:
@@ -35,6 +44,14 @@ class Engine {
     [[nodiscard]] virtual std::uint32_t most_events() const { return 0; }
     /// Every broken rule of the loops.
     virtual void audit(std::vector<Violation>& found) const = 0;
+    /// Calls visit(id, flights) for every moving ball with its flights that end after `from`, in their order,
+    /// the last one cut off at `to`, up to which all has been advanced: side by side for the balls. `from`
+    /// is `to`, or not before the time that the follower was told last.
+    using VisitFlights = std::function<void(std::uint32_t, std::span<const Flight>)>;
+    virtual void visit_flights(const Time& from, const Time& to, const VisitFlights& visit) const = 0;
+    /// From the time advanced to last on `follower` is told the times up to which flights can be visited,
+    /// before what lies further back is forgotten; an empty function turns it off.
+    virtual void follow(std::function<void(const Time&)> follower) = 0;
     /// Collisions are told from the time advanced to last on; an empty function turns it off.
     virtual void listen(std::function<void(const Collision&)> listener) = 0;
 
@@ -56,6 +73,22 @@ class Engine {
 };
 
 /// `bodies` and `executor` must outlive the engine. `domains` 0 lets the engine choose.
+/// Puts a ball's flights together, from its anchor and those that it has overwritten.
+class FlightList {
+ public:
+    explicit FlightList(const Bodies& bodies) : bodies_(bodies) {}
+    /// Those that end after `from`, and the last one, cut off at `to`. Until the next call.
+    std::span<const Flight> of(const Anchor& last, const Vec2& acceleration,
+                               std::span<const OverwrittenAnchor> overwritten, std::uint32_t previous,
+                               const Time& from, const Time& to);
+
+ private:
+    void add(const Anchor& anchor, const Vec2& acceleration, const Time& to);
+
+    const Bodies& bodies_;
+    std::vector<Flight> flights_;
+};
+
 [[nodiscard]] std::unique_ptr<Engine> make_engine(const Bodies& bodies, const EngineStart& start,
                                                   const Executor& executor, const WorldOptions& options);
 

@@ -64,6 +64,11 @@ void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_ow
         cells_.insert(r.anchor.place, i);
 }
 
+void EventLoop::forget_anchors() {
+    overwritten.clear();
+    for (Local& local : locals_) local.last_overwritten = kNowhere;
+}
+
 /// Enters all balls into the queue.
 void EventLoop::begin() {
     queue_.reset(size());

@@ -116,6 +116,7 @@ class EventLoop {
     [[nodiscard]] BallState state(std::uint32_t i, const Time& t) const;
     /// A mark of all that ball i has done since clear().
     [[nodiscard]] std::uint64_t history(std::uint32_t i) const { return locals_[i].history; }
+    void forget_anchors();
     /// Whether a copy was given up before `end`.
     [[nodiscard]] bool is_lost(std::uint32_t i, const Time& end) const {
         return locals_[i].end < bodies_.physics.clock.since_epoch(end, epoch_);
@@ -130,7 +131,11 @@ class EventLoop {
     /// Whether a ball without room to move is an error only after very many events at one instant; else the
     /// loop fails after a few.
     bool is_patient = true;
-    bool keeps_window = false;  ///< whether overwritten anchors and visits are kept
+    bool keeps_window = false;   ///< whether visits and histories are kept
+    bool keeps_anchors = false;  ///< whether overwritten anchors are
+    /// Told the end of each part of an epoch where anchors are kept without the rest of a window, and may
+    /// call forget_anchors() then.
+    std::function<void(const Time&)> on_part;
     std::function<void(const CollisionNote&, const Collision*)>
         on_note;                                 ///< without the second unless it listens
     std::vector<CollisionNote> notes;            ///< of collisions that count here, in order

@@ -17,15 +17,31 @@ namespace carom {
 template <Acceleration A>
 void EventLoopOf<A>::advance_to(const Time& end, bool inclusive) {
     while (epoch_ < end.epoch) {
-        run_until(clock_.epoch_length(), false);
+        run_in_parts(clock_.epoch_length(), false);
         const double epochs = std::floor(queue_.first_key() / clock_.epoch_length());
         start_next_epoch(epochs < double(end.epoch - epoch_)
                              ? epoch_ + std::max(std::int64_t{1}, static_cast<std::int64_t>(epochs))
                              : end.epoch);
     }
-    run_until(end.offset, inclusive);
+    run_in_parts(end.offset, inclusive);
     now_ = std::max(now_, end.offset);
     pass_on_notes();
+}
+
+/// Where anchors are kept for a follower, it is told often enough that they stay few.
+template <Acceleration A>
+void EventLoopOf<A>::run_in_parts(double end, bool inclusive) {
+    constexpr double kParts = 64;
+    if (on_part) {
+        const double part = clock_.epoch_length() / kParts;
+        for (double k = std::floor(now_ / part) + 1; k * part < end && !failed_; ++k) {
+            if (!(queue_.first_key() < k * part)) continue;
+            run_until(k * part, false);
+            pass_on_notes();
+            on_part({epoch_, k * part});
+        }
+    }
+    run_until(end, inclusive);
 }
 
 template <Acceleration A>
@@ -185,7 +201,7 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     const double since = clock_.difference(t, a.time);
     const Motion<double> m = motion_of(i);
     const Vec2 v = bodies_.held_velocity(velocity_at(m, since));
-    if (keeps_window && is_owned(i)) {
+    if (keeps_anchors && is_owned(i)) {
         overwritten.push_back(
             {a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, locals_[i].last_overwritten});
         locals_[i].last_overwritten = static_cast<std::uint32_t>(overwritten.size() - 1);

@@ -117,6 +117,7 @@ class EventLoopOf final : public EventLoop {
     void predict_crossing(std::uint32_t i);
 
     // Events.
+    void run_in_parts(double end, bool inclusive);
     void run_until(double end, bool inclusive);
     void start_next_epoch(std::int64_t epoch);
     [[nodiscard]] std::uint32_t first_of_ties();

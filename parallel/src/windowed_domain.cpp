@@ -101,7 +101,7 @@ void WindowedEngine::load(Workshop& w, std::size_t self, const Region& region, s
 void WindowedEngine::run(DomainState& d, const Time& window_end, bool inclusive) {
     const Lease lease(*this);
     Workshop& w = *lease;
-    w.loop->keeps_window = true;
+    w.loop->keeps_window = w.loop->keeps_anchors = true;
     w.loop->is_patient = false;  // all balls together will tell
     d.region = {bodies_.grid, d.x, d.y, d.halo};
     load(w, static_cast<std::size_t>(&d - domains_.data()), d.region, d.halo, window_end, true);

@@ -66,7 +66,7 @@ bool WindowedEngine::try_window(const Time& window_end, bool inclusive) {
 void WindowedEngine::run_together(const Time& window_end, bool inclusive) {
     const Lease lease(*this);
     Workshop& w = *lease;
-    w.loop->keeps_window = w.loop->is_patient = true;
+    w.loop->keeps_window = w.loop->keeps_anchors = w.loop->is_patient = true;
     load(w, kAll, {bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0}, 0, window_end, false);
     w.loop->start();
     w.loop->advance_to(window_end, inclusive);
@@ -102,7 +102,7 @@ void WindowedEngine::predict_anew(bool renews_field) {
         DomainState& d = domains_[k];
         const Lease lease(*this);
         Workshop& w = *lease;
-        w.loop->keeps_window = false;
+        w.loop->keeps_window = w.loop->keeps_anchors = false;
         load(w, k, {bodies_.grid, d.x, d.y, kSight}, kSight, kNever, false);
         if (renews_field) w.loop->renew_field(window_start_);
         w.loop->predict_all(nullptr);

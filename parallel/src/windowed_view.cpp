@@ -32,6 +32,7 @@ void WindowedEngine::tell_until(const Time& end) {
         first = last;
     }
     for (const Told& t : told) listener_(*t.collision);
+    if (follower_) follower_(end);
 }
 
 /// Collisions at one instant in the order in which a single loop has them: always the smallest ids whose
@@ -109,6 +110,18 @@ void WindowedEngine::read(const Time& t, std::span<BallState> states) const {
             states[records[i].id] = state_at(bodies_, past.anchor, past.periods,
                                              extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, t);
         }
+    });
+}
+
+void WindowedEngine::visit_flights(const Time& from, const Time& to, const VisitFlights& visit) const {
+    for_each_domain([&](std::size_t k) {
+        const DomainState& d = domains_[k];
+        const auto& [records, extras] = held(d);
+        FlightList flights(bodies_);
+        for (std::size_t i = 0; i < records.size(); ++i)
+            visit(records[i].id,
+                  flights.of(records[i].anchor, extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration,
+                             d.overwritten, in_window_ ? d.last_overwritten[i] : kNowhere, from, to));
     });
 }
 

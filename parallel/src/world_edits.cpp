@@ -265,9 +265,12 @@ Added World::State::apply(const Edits& edits) {
     Snapshot s = carrier.take();
     s.scene_hash = next->hash;
     s.field_updates = rules.attractors.empty() ? 0 : updates_until(seconds, rules.field_interval);
+    const std::vector<BallState> before = watch_ ? all : std::vector<BallState>();
+    const std::shared_ptr<const Cast> past = cast;  // until the watch has gone on
     continue_with(next, s);
     for (const std::uint32_t id : edits.removed_balls)
         if (id < user_data.size()) user_data[id] = 0;
+    if (watch_) watch_->go_on_with(bodies(), *engine, now, before, sensing);
     return added;
 }
 

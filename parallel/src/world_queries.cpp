@@ -54,6 +54,36 @@ Ball World::ball(std::uint32_t id) const {
     return state_->ball(index, state_->states()[index]);
 }
 
+const std::vector<Sensor>& World::sensors() const {
+    return state_->sensors;
+}
+
+void World::set_sensors(std::vector<Sensor> sensors) {
+    for (std::size_t k = 0; k < sensors.size(); ++k) check(sensors[k], k);
+    if (state_->bodies().physics.empirical && !sensors.empty())
+        throw std::logic_error("the empirical method knows no sensors");
+    state_->sensors = std::move(sensors);
+    state_->watch_anew();
+}
+
+std::vector<std::uint32_t> World::balls_in_sensor(std::uint32_t sensor) const {
+    if (sensor >= state_->sensors.size())
+        throw std::out_of_range("sensors[" + std::to_string(sensor) + "]: is not there");
+    const std::vector<Sensor> one = {state_->sensors[sensor]};
+    const SensorWatch watch(state_->bodies(), one, *state_->engine, state_->now);
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t i = 0; i < ball_count(); ++i)
+        if (!watch.inside()[i].empty()) found.push_back(state_->bodies().ball_id(i));
+    return found;
+}
+
+void World::on_sensing(std::function<void(const Sensing&)> listener) {
+    if (state_->bodies().physics.empirical && listener)
+        throw std::logic_error("the empirical method knows no sensors");
+    state_->sensing = std::move(listener);
+    state_->watch_anew();
+}
+
 std::uint64_t World::user_data(std::uint32_t id) const {
     static_cast<void>(state_->index_of_ball(id));
     return id < state_->user_data.size() ? state_->user_data[id] : 0;

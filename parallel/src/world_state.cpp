@@ -90,7 +90,7 @@ Cast::Cast(Scene scene, const Physics& physics, const std::vector<Ball>& balls, 
 }
 
 World::State::State(const Scene& scene, const WorldOptions& options, const Snapshot* snapshot)
-    : wanted(options), executor(options.threads) {
+    : wanted(options), executor(options.threads), sensors(scene.sensors) {
     const std::vector<Ball> balls = place_checked(scene);
     const Physics physics = derive_physics(scene, balls);
     auto first = std::make_shared<Cast>(rules_of(scene), physics, balls, options.cell_size);
@@ -117,6 +117,7 @@ Snapshot World::State::snapshot() const {
 void World::State::restore(const Snapshot& s) {
     check(s);
     continue_with(s.edited ? s.edited : scene_cast, s);
+    watch_anew();
 }
 
 void World::State::check(const Snapshot& s) const {
@@ -140,6 +141,7 @@ void World::State::continue_with(std::shared_ptr<const Cast> next, const Snapsho
         make_engine(next->bodies, start_from(next->bodies, s, executor), executor, wanted);
     if (listener) made->listen(listener);
     engine = std::move(made);
+    if (watch_) engine->follow([this](const Time& t) { watch_->take(*engine, t, sensing); });
     cast = std::move(next);
     field_updates = s.field_updates;
     seconds = s.time;
@@ -147,6 +149,14 @@ void World::State::continue_with(std::shared_ptr<const Cast> next, const Snapsho
     forget();
     // Events, and what they have rounded, are counted from here on.
     inherited_overlap = bodies().physics.in_float ? max_overlap() : 0;
+}
+
+void World::State::watch_anew() {
+    engine->follow(nullptr);
+    watch_.reset();
+    if (!sensing || sensors.empty()) return;
+    watch_ = std::make_unique<SensorWatch>(bodies(), sensors, *engine, now);
+    engine->follow([this](const Time& t) { watch_->take(*engine, t, sensing); });
 }
 
 void World::State::forget() {

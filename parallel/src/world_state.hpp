@@ -17,6 +17,7 @@
 #include "engine.hpp"
 #include "executor.hpp"
 #include "place_index.hpp"
+#include "sensor_watch.hpp"
 
 namespace carom {
 
@@ -111,6 +112,11 @@ class World::State {
     double seconds = 0;
     double inherited_overlap = 0;  // deepest when the engine was made, where states are rounded to float
     std::vector<std::uint64_t> user_data;  // by id
+    std::vector<Sensor> sensors;
+    std::function<void(const Sensing&)> sensing;
+
+    /// To be called where sensors, who listens, or the time have changed otherwise than by going on.
+    void watch_anew();
 
  private:
     void check(const Snapshot& s) const;
@@ -119,6 +125,7 @@ class World::State {
     /// Goes on with these bodies from a snapshot of theirs; all stays as it was where that throws.
     void continue_with(std::shared_ptr<const Cast> next, const Snapshot& s);
 
+    std::unique_ptr<SensorWatch> watch_;  // where somebody listens
     mutable std::mutex reading_;
     mutable bool is_read_ = false;
     mutable std::vector<BallState> states_;

@@ -70,6 +70,35 @@ TEST(Program, WrongUsageIsOneLineAndStatusTwo) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"s.json"}));
 }
 
+// The ball of 0.5 at speed 3 touches the gate at x = 8 at 2.5 / 3 and parts at 3.5 / 3, turns at 1.5 and
+// comes again.
+TEST(Program, WritesWhoComesIntoSensors) {
+    const Folder folder;
+    std::string text = kOneBall;
+    const std::string key = "\"until\"";
+    text.insert(text.find(key), "\"sensors\": [{\"corners\": [[8, 0], [8, 10]]}], ");
+    folder.write("s.json", text);
+    const Result result =
+        folder.run({"run", "s.json", "--until", "2", "--sensings", "in.csv", "--picture", "p.svg"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const std::vector<std::string> lines = lines_of(folder.read("in.csv"));
+    ASSERT_EQ(lines.size(), 4U);
+    EXPECT_EQ(lines[0], "time,sensor,ball,enters,x,y,vx,vy");
+    EXPECT_THAT(lines[1], StartsWith("0.83333333333333"));
+    EXPECT_THAT(lines[1], HasSubstr(",0,0,1,7.5"));
+    EXPECT_THAT(lines[2], StartsWith("1.16666666666666"));
+    EXPECT_THAT(lines[3], StartsWith("1.83333333333333"));
+    EXPECT_THAT(lines[3], HasSubstr(",0,0,1,8.5"));
+    EXPECT_THAT(lines[3], testing::EndsWith(",5,-3,0"));
+
+    folder.write("none.json", kOneBall);
+    expect_one_error(folder.run({"run", "none.json", "--sensings", "in.csv"}), 2, "this has none");
+    expect_one_error(folder.run({"run", "s.json", "--sensings", "in.csv", "--checkpoint", "c"}), 2,
+                     "--checkpoint");
+    expect_one_error(folder.run({"run", "s.json", "--sensings", "s.json"}), 2, "overwrite the scene");
+    expect_one_error(folder.run({"run", "s.json", "--method", "empirical"}), 1, "sensors: must be none");
+}
+
 // Simulated in float, or in double and written in float: other trajectories, fewer digits.
 TEST(Program, PrecisionOfTheSimulationAndOfItsOutput) {
     const Folder folder;

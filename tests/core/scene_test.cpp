@@ -168,6 +168,26 @@ INSTANTIATE_TEST_SUITE_P(
               [](Scene& s) { s.attractors[0].strength = kInfinity; }},
         Fault{"attractors[0].softening: must be >= 0, is -1",
               [](Scene& s) { s.attractors[0].softening = -1; }},
+        Fault{"sensors[0].corners: must be 1 to 64, are 0", [](Scene& s) { s.sensors = {{}}; }},
+        Fault{"sensors[0].corners: must be 1 to 64, are 65",
+              [](Scene& s) { s.sensors = {{std::vector<Vec2>(65)}}; }},
+        Fault{"sensors[1].corners: must be finite, is [nan, 0]",
+              [](Scene& s) { s.sensors = {{{{0, 0}}}, {{{kNan, 0}}}}; }},
+        Fault{"sensors[0].radius: must be >= 0, is -1", [](Scene& s) { s.sensors = {{{{0, 0}}, -1}}; }},
+        Fault{"sensors[0].corners: must be at least 1e-100 apart",
+              [](Scene& s) { s.sensors = {{{{1, 1}, {1, 1}}}}; }},
+        // On one line, dented, and a star with five points that goes around twice.
+        Fault{"sensors[0].corners: must go once around a convex polygon, no three of them on one line",
+              [](Scene& s) { s.sensors = {{{{0, 0}, {1, 1}, {2, 2}}}}; }},
+        Fault{"sensors[0].corners: must go once around a convex polygon, no three of them on one line",
+              [](Scene& s) { s.sensors = {{{{0, 0}, {4, 0}, {1, 1}, {0, 4}}}}; }},
+        Fault{"sensors[0].corners: must go once around a convex polygon, no three of them on one line",
+              [](Scene& s) { s.sensors = {{{{0, 3}, {-2, -3}, {3, 1}, {-3, 1}, {2, -3}}}}; }},
+        Fault{"sensors: must be none where method is empirical",
+              [](Scene& s) {
+                  s.sensors = {{{{0, 0}}}};
+                  s.method = Method::kEmpirical;
+              }},
         Fault{"domain.max: must be greater than min on both axes, is [0, 20] with min [0, 0]",
               [](Scene& s) { s.domain->box.max.x() = 0; }},
         Fault{"domain.min: must be finite, is [0, -inf]",

@@ -248,6 +248,14 @@ Scene random_scene(Generator& generator) {
     scene.attractors.resize(list_length());
     for (Attractor& attractor : scene.attractors)
         attractor = {any_vector(generator), any_allowed(generator), std::abs(any_allowed(generator))};
+    scene.sensors.resize(list_length());
+    for (Sensor& sensor : scene.sensors) {
+        sensor.corners.push_back(any_vector(generator));
+        if (coin())
+            sensor.corners = {{0, unit(generator)}, {-1 - unit(generator), 0}, {0.5, -unit(generator)}};
+        sensor.radius = std::abs(any_allowed(generator));
+        sensor.filter = {static_cast<std::uint32_t>(generator()), static_cast<std::uint32_t>(generator())};
+    }
     scene.field_interval = any_positive(generator);
     scene.until = std::abs(any_allowed(generator));
     return scene;
@@ -322,6 +330,14 @@ void expect_same_surroundings(const Scene& a, const Scene& b) {
         EXPECT_TRUE(same_bits(a.attractors[i].position, b.attractors[i].position));
         EXPECT_TRUE(same_bits(a.attractors[i].strength, b.attractors[i].strength));
         EXPECT_TRUE(same_bits(a.attractors[i].softening, b.attractors[i].softening));
+    }
+    ASSERT_EQ(a.sensors.size(), b.sensors.size());
+    for (std::size_t i = 0; i < a.sensors.size(); ++i) {
+        ASSERT_EQ(a.sensors[i].corners.size(), b.sensors[i].corners.size());
+        for (std::size_t k = 0; k < a.sensors[i].corners.size(); ++k)
+            EXPECT_TRUE(same_bits(a.sensors[i].corners[k], b.sensors[i].corners[k]));
+        EXPECT_TRUE(same_bits(a.sensors[i].radius, b.sensors[i].radius));
+        EXPECT_EQ(a.sensors[i].filter, b.sensors[i].filter);
     }
 }
 

@@ -65,6 +65,15 @@ struct Attractor {
     double softening = 0;
 };
 
+/// A place that tells which balls are there and changes no course: all that is nearer than `radius` to the
+/// point, the segment or the convex polygon of its corners (either way around). A moving ball is
+/// there while its disc overlaps that, where the filters let the two collide.
+struct Sensor {
+    std::vector<Vec2> corners;  ///< one, two, or those of a convex polygon
+    double radius = 0;
+    CollisionFilter filter = {};
+};
+
 /// A rectangle with sides along the axes.
 struct Box {
     Vec2 min = Vec2::Zero();
@@ -118,6 +127,7 @@ struct Scene {
     std::vector<Fill> fills;
     std::vector<Wall> walls;
     std::vector<Attractor> attractors;
+    std::vector<Sensor> sensors;
     double field_interval = 0.02;  ///< attractors' accelerations are held constant for so long
     double until = 0;              ///< end of the simulation, from time 0
 };
@@ -140,11 +150,12 @@ class SceneError : public std::runtime_error {
 /// Throws SceneError at the first fault.
 void check(const Scene& scene);
 
-/// The same of one body, with the place `balls[index]`, `walls[index]` or `attractors[index]`; of `scene` the
-/// domain and the precision count.
+/// The same of one body, with the place `balls[index]`, `walls[index]` and so on; of `scene` the domain and
+/// the precision count.
 void check(const Ball& ball, const Scene& scene, std::size_t index);
 void check(const Wall& wall, const Scene& scene, std::size_t index);
 void check(const Attractor& attractor, std::size_t index);
+void check(const Sensor& sensor, std::size_t index);
 void check_gravity(const Vec2& gravity);
 
 }  // namespace carom

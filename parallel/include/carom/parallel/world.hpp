@@ -30,6 +30,16 @@ struct Collision {
     double approach_speed;  ///< relative speed along the normal just before
 };
 
+/// A ball that comes into a sensor or leaves it.
+struct Sensing {
+    double time;
+    std::uint32_t sensor;  ///< its index in World::sensors()
+    std::uint32_t ball;    ///< id
+    bool enters;
+    Vec2 position;  ///< of the ball then
+    Vec2 velocity;
+};
+
 struct WorldOptions {
     int threads = 0;  ///< 0: as many as the machine offers
     double cell_size =
@@ -183,6 +193,20 @@ class World {
     /// the direction is zero, or the way longer than a million periods of a periodic box.
     [[nodiscard]] std::optional<RayHit> cast_ray(const Vec2& from, const Vec2& direction,
                                                  double length) const;
+
+    // ---- Sensors. They look on: with or without them the balls' course has the same bits. The event method
+    // alone knows them (std::logic_error).
+
+    [[nodiscard]] const std::vector<Sensor>& sensors() const;
+    /// Others from now on. Throws SceneError on what no scene may have.
+    void set_sensors(std::vector<Sensor> sensors);
+    /// The moving balls that are in a sensor at time(). Ids rise.
+    [[nodiscard]] std::vector<std::uint32_t> balls_in_sensor(std::uint32_t sensor) const;
+    /// Called for every moving ball that comes into a sensor or leaves it from time() on, at its true time,
+    /// in the order of time: after the collisions of the same stretch of time. A ball that is in one already
+    /// does not come, one that an edit puts there or takes away does so at the edit's time. A sensor that
+    /// ends where balls bounce off tells what rounding makes of it. An empty function turns it off.
+    void on_sensing(std::function<void(const Sensing&)> listener);
 
     /// Called for every collision in the order of events. An empty function turns it off.
     void on_collision(std::function<void(const Collision&)> listener);
