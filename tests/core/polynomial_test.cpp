@@ -51,6 +51,7 @@ TEST(Polynomial, AnswersBetweenTheRootsThatLieAhead) {
     expect_stretches(of_roots(-7, 1, 2), {{1, 2}});
     expect_stretches(of_roots(1, 8, 9), {{0, 1}, {8, 9}});
     expect_stretches(of_roots(0.25, 0.5, 9), {{0, 0.25}, {0.5, 9}});
+    expect_stretches(of_roots(0.5, 0.625, 0.75), {{0, 0.5}, {0.625, 0.75}});
     EXPECT_EQ(stretches(of_roots(1, 2, 5), true).size(), 1U) << "ends where the visitor has seen enough";
 }
 
