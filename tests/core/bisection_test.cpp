@@ -39,6 +39,47 @@ TEST(Bisection, KnowsThePartOfAWallThatIsNearest) {
     EXPECT_EQ(nearest({2.25, 0}).distance, 1.25);
 }
 
+TEST(Bisection, AWallWithoutLengthIsAPoint) {
+    const auto nearest = detail::distance_to_wall<double>({4, 5}, {1, 1}, {1, 1});
+    EXPECT_EQ(nearest.distance, 5);
+    EXPECT_EQ(nearest.feature, WallFeature::kFrom);
+}
+
+TEST(Bisection, ATouchAtTheEndIsNoOverlap) {
+    EXPECT_FALSE(
+        bisect_ball_ball<double>(disc({0, 0}, {1, 0}, 0.5), disc({4, 0}, {0, 0}, 0.5), 3.0, kTolerance));
+}
+
+TEST(Bisection, EndsAtTheToleranceOrAtTheContactItself) {
+    const auto closing = [](double t) { return 1 - t; };
+    EXPECT_EQ(detail::bisect_contact<double>(2, 1, closing), 0) << "as far away as is allowed";
+    EXPECT_EQ(detail::bisect_contact<double>(2, 0, closing), 1) << "met by the first cut";
+}
+
+// Each cut halves the stretch, and the gap that is left is at most as long: 20 cuts, besides both ends.
+TEST(Bisection, CutsInHalves) {
+    for (const double contact : {0.001, 0.3, 0.7, 0.999}) {
+        int asked = 0;
+        const auto gap = [&](double t) {
+            ++asked;
+            return contact - t;
+        };
+        const auto time = detail::bisect_contact<double>(1, 0x1p-20, gap);
+        ASSERT_TRUE(time);
+        EXPECT_LE(contact - *time, 0x1p-20);
+        EXPECT_LE(asked, 22) << contact;
+    }
+}
+
+// A gap that jumps below 0 leaves two neighbours, whose middle rounds to the one or the other.
+TEST(Bisection, EndsWhereNoTimeIsBetween) {
+    double contact = 1.25;
+    for (int i = 0; i < 8; ++i, contact = std::nextafter(contact, 2.0)) {
+        const auto gap = [&](double t) { return t < contact ? 1.0 : -1.0; };
+        EXPECT_EQ(detail::bisect_contact<double>(2, 0, gap), std::nextafter(contact, 0.0));
+    }
+}
+
 TEST(Bisection, ComesWithinTheToleranceOfTheExactTime) {
     SCOPED_TRACE("seed 61");
     test::Random random(61);
@@ -87,6 +128,9 @@ TEST(Bisection, OverlapAtTheStartIsTimeZeroOrNothing) {
     EXPECT_EQ(in->time, 0);
     EXPECT_FALSE(
         bisect_ball_ball<double>(disc({0, 0}, {-0.1, 0}, 0.5), disc({0.9, 0}, {0, 0}, 0.5), 0.1, kTolerance));
+    EXPECT_FALSE(
+        bisect_ball_ball<double>(disc({0, 0}, {0, 1}, 0.5), disc({0.9, 0}, {0, 0}, 0.5), 0.1, kTolerance))
+        << "slides";
 }
 
 TEST(Bisection, EndsWithoutATolerance) {

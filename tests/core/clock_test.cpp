@@ -51,6 +51,26 @@ TEST(Clock, TheEndOfAnEpochIsTheStartOfTheNext) {
     EXPECT_EQ(clock.after({3, 0}, 32), (Time{5, 0}));
 }
 
+TEST(Clock, BeginsAtZeroWithEpochsOfOne) {
+    EXPECT_EQ(Time(), (Time{0, 0}));
+    EXPECT_EQ(Clock().epoch_length(), 1);
+    EXPECT_EQ(Clock().after({0, 0.5}, 2), (Time{2, 0.5}));
+}
+
+TEST(Clock, CountsSeconds) {
+    const Clock clock(16);
+    EXPECT_EQ(clock.from_seconds(100), (Time{6, 4}));
+    EXPECT_EQ(clock.to_seconds({6, 4}), 100);
+    EXPECT_EQ(clock.since_epoch({6, 4}, 1), 84);
+}
+
+TEST(Clock, OrdersTimes) {
+    const Time t{3, 0.5};
+    EXPECT_FALSE(t < t || t > t);
+    EXPECT_TRUE(t <= t && t >= t);
+    EXPECT_TRUE((Time{3, 0.25} < t) && (Time{2, 0.75} < t) && (Time{4, 0} > t));
+}
+
 TEST(Clock, DifferenceUndoesAfter) {
     constexpr std::uint64_t kSeed = 2;
     std::mt19937_64 random(kSeed);
@@ -70,6 +90,9 @@ TEST(Clock, NeverComesAfterAll) {
     EXPECT_EQ(clock.after({5, 0.5}, 1e300), kNever);
     EXPECT_EQ(clock.after({kNever.epoch - 1, 0.5}, 1), kNever);
     EXPECT_LT((Time{kNever.epoch - 1, 0.5}), kNever);
+    constexpr std::int64_t kEnd = std::int64_t(1) << 52;
+    EXPECT_EQ(clock.after({kEnd - 2, 0.5}, 1), (Time{kEnd - 1, 0.5}));
+    EXPECT_EQ(clock.after({kEnd - 1, 0.5}, 1), kNever);
     EXPECT_EQ(clock.since_epoch(kNever, 3), std::numeric_limits<double>::infinity());
 }
 

@@ -44,6 +44,29 @@ TEST(Compensated, ADifferenceOfProductsKeepsItsDigits) {
     }
 }
 
+// A few eps^2 each: the parts dropped are products of two low parts, and each of some four sums of low parts
+// rounds by eps / 2 of eps / 2.
+TEST(Compensated, TwofoldNumbersKeepTwiceTheDigits) {
+    SCOPED_TRACE("seed 4");
+    Random random(4);
+    const auto exact = [](const Twofold<double>& t) { return Big(Big(t.high) + t.low); };
+    const auto twofold = [&] {
+        return two_sum<double>(random.uniform(1, 2), random.uniform(-1, 1) * 0x1p-53);
+    };
+    constexpr double kBound = 4 * kEpsilon * kEpsilon;
+    for (int i = 0; i < 10000; ++i) {
+        const Twofold<double> a = twofold();
+        const Twofold<double> b = twofold();
+        const Big product = exact(a) * exact(b);
+        const Big quotient = exact(a) / exact(b);
+        ASSERT_LE(abs(exact(twofold_product<double>(a, b)) - product), kBound * product) << i;
+        ASSERT_LE(abs(exact(twofold_quotient<double>(a, b)) - quotient), kBound * quotient) << i;
+        const Vec2 r(a.high * random.decades(-3, 3), b.high);
+        const Big square = dot<Big>(test::big(r), test::big(r));
+        ASSERT_LE(abs(exact(length_squared_twofold<double>(r)) - square), kBound * square) << i;
+    }
+}
+
 TEST(Compensated, TheGapNearContactKeepsItsDigits) {
     SCOPED_TRACE("seed 3");
     Random random(3);

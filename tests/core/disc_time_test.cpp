@@ -36,6 +36,7 @@ TEST(DiscTime, MeetsHeadOn) {
 
 TEST(DiscTime, FollowsTheRuleInContact) {
     EXPECT_EQ(straight({1, 0}, {-1, 3}, 1), 0) << "touching and approaching";
+    EXPECT_EQ(straight({1, 0}, {-1e-170, 1}, 1), 0) << "touching and approaching, however slowly";
     EXPECT_EQ(straight({1, 0}, {1, 0}, 1), kInfinity) << "touching and receding";
     EXPECT_EQ(straight({1, 0}, {0, 1}, 1), kInfinity) << "touching and sliding";
     EXPECT_EQ(straight({0.5, 0}, {-1, 0}, 1), 0) << "overlapping and approaching";
@@ -58,6 +59,8 @@ TEST(DiscTime, FollowsTheRuleUnderAcceleration) {
     EXPECT_EQ(curved({0, 1}, {0, 0}, {0, 1}, 1), kInfinity) << "at rest in contact, pulled apart";
     EXPECT_EQ(curved({0, 0.5}, {0, 0}, {0, -1}, 1), 0) << "at rest in overlap, pressed together";
     EXPECT_EQ(curved({0, 3}, {0, 0}, {0, -1}, 1), 2) << "falls from rest";
+    EXPECT_EQ(curved({0, -3}, {0, 0}, {0, 1}, 1), 2);
+    EXPECT_EQ(curved({-3, 0}, {0, 0}, {1, 0}, 1), 2);
     EXPECT_EQ(curved({0, 3}, {0, 4}, {0, 1}, 1), kInfinity) << "leaves";
     EXPECT_EQ(curved({5, 3}, {0, 4}, {0, -1}, 1), kInfinity) << "falls past";
 }
@@ -70,6 +73,64 @@ TEST(DiscTime, HorizonCutsOffAndChangesNothingElse) {
     EXPECT_EQ(disc_time_of_impact<double>(r, v, a, 1.0, 1.999), kInfinity);
     EXPECT_EQ(disc_time_of_impact<double>(r, v, a, 1.0, 0.001), kInfinity);
     EXPECT_EQ(disc_time_of_impact<double>(r, v, a, 1.0, kInfinity), 2);
+}
+
+// What is found within any horizon from the impact on, and before it nothing: also where the acceleration
+// alone brings the discs together, and after long.
+TEST(DiscTime, AHorizonAtTheImpactItselfIsWideEnough) {
+    SCOPED_TRACE("seed 15");
+    Random random(15);
+    int hits = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double length = random.decades(-6, 6);
+        const double time = random.decades(-6, 6);
+        const Vec2 r = random.direction(length * random.uniform(1.1, 30));
+        const Vec2 v = i % 2 == 0 ? Vec2(0, 0) : Vec2(random.vector(length / time));
+        const Vec2 a = -r / (time * time);
+        const double t = curved(r, v, a, length);
+        if (!(t < kInfinity)) continue;
+        ++hits;
+        ASSERT_EQ(disc_time_of_impact<double>(r, v, a, length, t), t) << i;
+        ASSERT_EQ(disc_time_of_impact<double>(r, v, a, length, std::nextafter(t, 0.0)), kInfinity) << i;
+    }
+    EXPECT_GT(hits, 1500);
+}
+
+// A disc that goes through another from x = -5 at speed 2: from t = 2 to t = 3 they overlap, at 2.5 they are
+// one.
+TEST(DiscTime, StartsInAnOverlapLaterOn) {
+    const auto from = [](double not_before) {
+        return detail::disc_time_from<double>({-5, 0}, {2, 0}, 1.0, not_before);
+    };
+    EXPECT_EQ(from(1), 2);
+    EXPECT_EQ(from(2), 2);
+    EXPECT_EQ(from(2.25), 2.25) << "still approaching";
+    EXPECT_EQ(from(2.5), kInfinity) << "neither approaching nor receding";
+    EXPECT_EQ(from(2.75), kInfinity);
+}
+
+// The discs are brought nearer until t = 1, where they turn: what is asked from there on finds nothing.
+TEST(DiscTime, AStretchThatEndsWhereTheSearchBeginsIsOver) {
+    const auto from = [](double not_before) {
+        return detail::disc_time_from<double>({0.5, 0}, {-0.25, 0}, {0.25, 0}, 1.0, not_before);
+    };
+    EXPECT_EQ(from(0.5), 0.5);
+    EXPECT_EQ(from(1), kInfinity);
+}
+
+// Gravity along -y is no danger to who stays aside of the disc; but only where rounding leaves no doubt.
+TEST(DiscTime, KnowsWhoPassesBy) {
+    const auto passes = [](const Vec2& r, const Vec2& v) {
+        return detail::DiscQuartic<double>(r, v, {0, -1}, 1.0).passes_by();
+    };
+    for (const double side : {-1, 1}) {
+        EXPECT_TRUE(passes({3 * side, 1}, {0, 2}));
+        EXPECT_TRUE(passes({3 * side, 1}, {side, 0}));
+        EXPECT_TRUE(passes({3 * side, 1}, {0.25 * side, 0}));
+        EXPECT_FALSE(passes({3 * side, 1}, {-side, 0})) << "comes nearer";
+        EXPECT_FALSE(passes({0.5 * side, 1}, {side, 0})) << "is above";
+        EXPECT_FALSE(passes({side * (1 + 4 * std::numeric_limits<double>::epsilon()), 1}, {0, 0}));
+    }
 }
 
 TEST(DiscTime, WithoutAccelerationTheQuarticHasTheQuadraticsBits) {

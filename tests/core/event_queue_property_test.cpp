@@ -192,18 +192,67 @@ TEST(EventQueue, BeginsFewYearsWhereFewMove) {
     }
 }
 
+// Of 1000 keys spread evenly, in no order, a year's first guess is up to the median of a sample of 64: the
+// middle, by 4 sigma of such a median (1/16 of all) and a half of what a stride of whole numbers leaves out
+// (64 of 1000). Keys that never come are no part of it, nor do the unit and the start matter.
+TEST(EventQueue, BeginsWithAYearOfHalfTheKeys) {
+    constexpr std::uint32_t kCount = 1000;
+    for (const double unit : {1e-9, 1.0, 1e9})
+        for (const double start : {0.0, 1e6})
+            for (const std::uint32_t coming : {1000U, 400U}) {
+                EventQueue queue(kCount);
+                for (std::uint32_t id = 0; id < kCount; ++id) {
+                    const std::uint32_t place = id * 7919 % kCount;  // 7919 and 1000 have no common factor
+                    queue.put(id, place < coming ? (start + place) * unit : kInfinity);
+                }
+                queue.rebuild();
+                EXPECT_NEAR(static_cast<double>(queue.entries()), coming / 2.0, (0.25 + 0.032) * coming);
+                // The day at hand holds what it should, some of the year's: the keys are spread over its
+                // days.
+                const std::size_t whole_year = queue.entries();
+                EXPECT_EQ(queue.first_key(), start * unit);
+                EXPECT_LE(queue.entries() - whole_year, 10U);
+                EXPECT_GE(queue.entries() - whole_year, 1U);
+            }
+}
+
+// A year brings one event for two entries. Its length follows the last one's number of events, whose scatter
+// of sqrt(500) averages out over a hundred years; the first few years and the guess with which they begin
+// weigh some per cent.
+TEST(EventQueue, AYearBringsOneEventForTwoEntries) {
+    constexpr std::uint32_t kCount = 1000;
+    constexpr int kEvents = 100'000;
+    for (const double unit : {1e-6, 1.0, 1e6}) {
+        EventQueue queue(kCount);
+        Random random(14);
+        for (std::uint32_t id = 0; id < kCount; ++id) queue.put(id, random.uniform(0, unit));
+        queue.rebuild();
+        EXPECT_EQ(queue.years(), 2U) << "one that brings nothing, at the construction";
+        std::size_t most = 0;
+        for (int k = 0; k < kEvents; ++k) {
+            const std::uint32_t id = queue.first();
+            queue.set(id, queue.first_key() + random.uniform(0, unit));
+            most = std::max(most, queue.entries());
+        }
+        EXPECT_NEAR(static_cast<double>(queue.years()), kEvents / (kCount / 2.0), 20);
+        // An id has one entry in the year, and what came in its place, half of them.
+        EXPECT_LE(most, kCount + kCount / 2);
+    }
+}
+
 // Each keeps four entries an id at most before it begins anew, and 64; vectors double their room.
 TEST(EventQueue, StaysSmall) {
-    constexpr std::uint32_t kCount = 1000;
-    EventQueue queue(kCount);
-    Random random(13);
-    std::size_t most = 0;
-    for (int k = 0; k < 1'000'000; ++k) {
-        const auto id = static_cast<std::uint32_t>(random.uniform(0, kCount));
-        queue.set(id, queue.first_key() < kInfinity ? queue.first_key() + random.uniform(0, 1) : 1);
-        most = std::max(most, queue.entries());
+    for (const std::uint32_t count : {10U, 1000U}) {
+        EventQueue queue(count);
+        Random random(13);
+        std::size_t most = 0;
+        for (int k = 0; k < 500'000; ++k) {
+            const auto id = static_cast<std::uint32_t>(random.uniform(0, count));
+            queue.set(id, queue.first_key() < kInfinity ? queue.first_key() + random.uniform(0, 1) : 1);
+            most = std::max(most, queue.entries());
+        }
+        EXPECT_LE(most, 2 * (4 * count + 64) + 2);
     }
-    EXPECT_LE(most, 2 * (4 * kCount + 64) + 2);
 }
 
 }  // namespace

@@ -74,6 +74,15 @@ TEST(BallStaticImpact, TheObstacleStaysWhateverItsVelocity) {
     EXPECT_EQ(impact->time, 3);
     EXPECT_EQ(impact->velocity_a, Vec2(-1, 0.25));
     EXPECT_EQ(impact->velocity_b, Vec2(0, 0));
+    EXPECT_EQ(impact->point, Vec2(3.5, 0.75));
+}
+
+TEST(BallStaticImpact, ReturnsNothingBeyondTheDuration) {
+    const auto impact = [](double duration) {
+        return ball_static_impact<double>(disc({0, 0}, {1, 0}, 0.5), disc({4, 0}, {0, 0}, 0.5), duration);
+    };
+    EXPECT_TRUE(impact(3));
+    EXPECT_FALSE(impact(2.9999));
 }
 
 TEST(BallStaticImpact, IsTheLimitOfAHugeMass) {
@@ -100,6 +109,10 @@ TEST(BallWallImpact, ReflectsOffTheFace) {
     EXPECT_EQ(impact->normal, Vec2(0, 1));
     EXPECT_EQ(impact->velocity_a, Vec2(1, 0.5));
     EXPECT_FALSE(ball_wall_impact<double>(disc({0, 3}, {1, -1}, 1), {-5, 0}, {5, 0}, 1.0, 1.9));
+    EXPECT_TRUE(ball_wall_impact<double>(disc({0, 3}, {1, -1}, 1), {-5, 0}, {5, 0}, 1.0, 2.0));
+    const auto above = ball_wall_impact<double>(disc({0, 5}, {1, -1}, 1), {-5, 2}, {5, 2}, 1.0, 10.0);
+    ASSERT_TRUE(above);
+    EXPECT_EQ(above->point, Vec2(2, 2));
 }
 
 TEST(BallWallImpact, ReflectsOffTheTip) {
@@ -111,6 +124,18 @@ TEST(BallWallImpact, ReflectsOffTheTip) {
     // v' = v - 2 (v.n) n
     EXPECT_NEAR(impact->velocity_a.x(), 2 * 0.8 * 0.6, 32 * kEpsilon);
     EXPECT_NEAR(impact->velocity_a.y(), 2 * 0.8 * 0.8 - 1, 32 * kEpsilon);
+}
+
+TEST(Impact, DiscsInOnePlaceMeetAlongX) {
+    EXPECT_EQ(detail::unit_or_x<double>({0, 0}), Vec2(1, 0));
+    EXPECT_EQ(detail::unit_or_x<double>({0, -3}), Vec2(0, -1));
+}
+
+TEST(Impact, ADiscIsOfDiameterAndMassOneAndElastic) {
+    const Disc<double> d;
+    EXPECT_EQ(d.radius, 0.5);
+    EXPECT_EQ(d.mass, 1);
+    EXPECT_EQ(d.restitution, 1);
 }
 
 // The same source in 100 digits is its own oracle.

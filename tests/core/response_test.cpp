@@ -89,6 +89,7 @@ TEST(Response, RestitutionRules) {
     EXPECT_EQ(pair_restitution(RestitutionRule::kProduct, 0.25, 0.5), 0.125);
     EXPECT_EQ(pair_restitution(RestitutionRule::kMean, 0.25, 0.75), 0.5);
     EXPECT_EQ(pair_restitution(RestitutionRule::kGeometric, 0.25, 1.0), 0.5);
+    EXPECT_EQ(pair_restitution(RestitutionRule::kGeometric, 0.5, 0.125), 0.25);
     EXPECT_EQ(pair_restitution(RestitutionRule::kGeometric, 0.9, 0.9), 0.9)
         << "equal ones give themselves, to the bit";
 }
@@ -151,6 +152,18 @@ TEST(Response, TheBilliardCountsPi) {
     }
 }
 
+// A head-on collision of equal masses in each of the four directions, at any distance.
+TEST(Response, SwapsAlongEitherAxisExactly) {
+    for (const double s : {0.3, 1.0, 3.0}) {
+        for (const Vec2& n : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)}) {
+            const auto after = collide<double>(-0.75 * n, 0.5 * n, s * n, 2.0, 2.0, 1.0);
+            EXPECT_EQ(after.a, 0.5 * n);
+            EXPECT_EQ(after.b, -0.75 * n);
+            EXPECT_EQ(bounce<double>(-0.75 * n, s * n, 0.5), 0.375 * n);
+        }
+    }
+}
+
 TEST(Response, SeparatingBodiesKeepTheirVelocities) {
     const auto after = collide<double>({1, 2}, {-1, 3}, {1, 0}, 1.0, 2.0, 0.5, 1.0);
     EXPECT_EQ(after.a, Vec2(1, 2));
@@ -158,6 +171,12 @@ TEST(Response, SeparatingBodiesKeepTheirVelocities) {
     EXPECT_EQ(bounce<double>({1, 2}, {0, 1}, 0.5, 1.0), Vec2(1, 2));
     const auto at_one_place = collide<double>({1, 2}, {-1, 3}, {0, 0}, 1.0, 2.0, 0.5);
     EXPECT_EQ(at_one_place.a, Vec2(1, 2));
+    for (const Vec2& v : {Vec2(3, 1), Vec2(-3, 1), Vec2(-3, -5)}) {
+        EXPECT_EQ(collide<double>(v, {0, 0}, {0, 0}, 1.0, 2.0, 0.5).a, v) << "at one place";
+        EXPECT_EQ(bounce<double>(v, {0, 0}, 0.5), v) << "at one place";
+    }
+    EXPECT_EQ(collide<double>({0.5, 2}, {0.25, 3}, {1, 0}, 1.0, 2.0, 0.5).a, Vec2(0.5, 2)) << "slowly";
+    EXPECT_EQ(bounce<double>({-3, -4}, {3, 4}, 0.0), Vec2(0, 0)) << "and one that stops is not pushed";
 }
 
 TEST(Response, PartsAtTheSpeedAskedFor) {
@@ -169,6 +188,19 @@ TEST(Response, PartsAtTheSpeedAskedFor) {
     EXPECT_EQ(at_rest.b.x() - at_rest.a.x(), 0.125);
     EXPECT_EQ(bounce<double>({3, 0}, {0, 1}, 0.5, 0.125), Vec2(3, 0.125));
     EXPECT_EQ(bounce<double>({3, 0.0625}, {0, 1}, 0.5, 0.125), Vec2(3, 0.125)) << "parts, but too slowly";
+}
+
+// The same along a line of centres that is neither an axis nor of length 1.
+TEST(Response, PartsAtTheSpeedAskedForAlongAnyLine) {
+    const Vec2 n(0.6, 0.8);
+    for (const double speed : {-1.0, 0.0, 0.1}) {
+        const auto after = collide<double>(speed * n, {0, 0}, 5 * n, 1.0, 1.0, 0.0, 0.125);
+        EXPECT_NEAR((after.a - after.b).dot(n), 0.125, 8 * kEpsilon) << speed;
+        EXPECT_NEAR(bounce<double>(speed * n, 5 * n, 0.0, 0.125).dot(n), 0.125, 8 * kEpsilon) << speed;
+    }
+    double impulse = 0;
+    (void)collide<double>(-1 * n, {0, 0}, 5 * n, 1.0, 1.0, 1.0, 0.0, &impulse);
+    EXPECT_NEAR(impulse, 1, 8 * kEpsilon) << "reduced mass 1/2, change of speed 2";
 }
 
 TEST(Response, ReportsTheImpulse) {

@@ -217,6 +217,45 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"until: must be >= 0, is -1", [](Scene& s) { s.until = -1; }},
         Fault{"until: must be finite, is nan", [](Scene& s) { s.until = kNan; }}));
 
+// docs/scene-format.md says what is taken where nothing is given.
+TEST(Scene, HasTheDocumentedDefaults) {
+    const Ball ball;
+    EXPECT_EQ(ball.radius, 0.5);
+    EXPECT_EQ(ball.mass, 1);
+    EXPECT_EQ(ball.restitution, 1);
+    EXPECT_FALSE(ball.is_static);
+    EXPECT_EQ(Wall().restitution, 1);
+    EXPECT_EQ(Domain().restitution, 1);
+    EXPECT_EQ(Attractor().strength, 0);
+    EXPECT_EQ(Attractor().softening, 0);
+    const Fill fill;
+    EXPECT_EQ(fill.radius_min, 0.5);
+    EXPECT_EQ(fill.radius_max, 0.5);
+    EXPECT_EQ(fill.restitution, 1);
+    EXPECT_EQ(fill.temperature, 0);
+    EXPECT_EQ(fill.seed, 1U);
+    const Scene scene;
+    EXPECT_EQ(scene.speed_factor, 1);
+    EXPECT_EQ(scene.field_interval, 0.02);
+    EXPECT_EQ(scene.until, 0);
+    EXPECT_FALSE(scene.allows_overlap);
+    EXPECT_EQ(double(Scene::kUsualTravel), 0.2);
+    EXPECT_EQ(double(Scene::kUsualTolerance), 1e-6);
+}
+
+TEST(Scene, BodiesCollideWhereEachOnesCategoryIsInTheOthersMask) {
+    const CollisionFilter usual;
+    EXPECT_EQ(usual.category, 1U);
+    EXPECT_EQ(usual.mask, 0xffffffffU);
+    EXPECT_TRUE(may_collide(usual, usual));
+    const CollisionFilter blind{2, 4};
+    EXPECT_FALSE(may_collide(usual, blind)) << "one would, the other would not";
+    EXPECT_FALSE(may_collide(blind, usual));
+    EXPECT_FALSE(may_collide(blind, blind));
+    EXPECT_TRUE(may_collide(blind, {4, 2}));
+    EXPECT_TRUE(may_collide({1, 1}, {1, 1}));
+}
+
 TEST(CheckScene, AcceptsAnEmptyScene) {
     EXPECT_NO_THROW(check(Scene{}));
 }
@@ -293,6 +332,130 @@ TEST(CheckScene, KnowsTheRangeOfFloat) {
     EXPECT_TRUE(is_refused(Precision::kFloat, {0, -1.1e30}, {0, 0}));
     EXPECT_TRUE(is_refused(Precision::kFloat, {0, 0}, {1.1e30, 0}));
     EXPECT_FALSE(is_refused(Precision::kDouble, {0, -1.1e30}, {1.1e30, 0}));
+    for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
+        Scene scene;
+        scene.precision = precision;
+        scene.domain = Domain{{{0, 0}, {1.1e30, 1}}, {Boundary::kOpen, Boundary::kOpen}, 1};
+        EXPECT_EQ(precision == Precision::kFloat, [&] {
+            try {
+                check(scene);
+            } catch (const SceneError&) {
+                return true;
+            }
+            return false;
+        }());
+    }
+}
+
+/// The message of the fault that `change` makes in a sound scene; empty where it makes none.
+template <class Change>
+std::string fault_of(Change&& change) {
+    Scene scene = sound_scene();
+    change(scene);
+    try {
+        check(scene);
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(CheckScene, KnowsTheEndsOfItsRanges) {
+    EXPECT_EQ(fault_of([](Scene& s) { s.gravity = {1e100, -1e100}; }), "");
+    EXPECT_NE(fault_of([](Scene& s) { s.gravity = {1.1e100, 0}; }), "");
+    EXPECT_EQ(fault_of([](Scene& s) { s.until = 1e100; }), "");
+    EXPECT_EQ(fault_of([](Scene& s) { s.until = 2e100; }),
+              "until: must lie within -1e100 and 1e100, is 2e+100");
+    EXPECT_EQ(fault_of([](Scene& s) { s.balls[0].mass = 1e-100; }), "");
+    EXPECT_NE(fault_of([](Scene& s) { s.balls[0].mass = 0.9e-100; }), "");
+    EXPECT_EQ(fault_of([](Scene& s) { s.balls[0].restitution = 0; }), "");
+}
+
+TEST(CheckScene, AcceptsShortWallsAndSmallDomains) {
+    EXPECT_EQ(fault_of([](Scene& s) { s.walls[0] = {{-1, 5}, {1, 5}, 1}; }), "");
+    EXPECT_EQ(fault_of([](Scene& s) {
+                  s.walls[0] = {{-1, 0.5}, {1, -0.5}, 1};
+                  s.domain.reset();
+                  s.fills.clear();
+              }),
+              "");
+    EXPECT_EQ(fault_of([](Scene& s) { s.walls[0] = {{2, 2}, {2.5, 2}, 1}; }), "");
+    EXPECT_EQ(fault_of([](Scene& s) { s.walls[0] = {{0, 0}, {1e-100, 0}, 1}; }), "");
+    Scene scene;
+    scene.domain = Domain{{{0, 0}, {1e-100, 1}}, {Boundary::kOpen, Boundary::kOpen}, 1};
+    EXPECT_NO_THROW(check(scene));
+    // Wider than its small balls, though not than one of radius 0.5; and around the origin.
+    scene.domain = Domain{{{-0.25, -0.25}, {0.25, 0.25}}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
+    scene.balls.resize(1);
+    scene.balls[0].radius = 0.125;
+    EXPECT_NO_THROW(check(scene));
+}
+
+TEST(CheckScene, ChecksTheStepsOfTheEmpiricalMethod) {
+    const auto fault = [](std::optional<double> max_travel, std::optional<double> step) {
+        return fault_of([&](Scene& s) {
+            s.max_travel = max_travel;
+            s.step = step;
+        });
+    };
+    EXPECT_EQ(fault(1e-9, {}), "");
+    EXPECT_EQ(fault(0.5, {}), "");
+    EXPECT_EQ(fault(0.9e-9, {}), "max_travel: must be 0 or at least 1e-9, is 9e-10");
+    EXPECT_EQ(fault(0, 0.1), "");
+    EXPECT_EQ(fault(1, 0.1), "");
+    EXPECT_EQ(fault(0, {}), "max_travel: must be > 0 where no step is given, is 0");
+    EXPECT_EQ(fault(-1, 0.1), "max_travel: must be >= 0, is -1");
+    EXPECT_EQ(fault({}, 0), "step: must be > 0, is 0");
+}
+
+// Regions may reach beyond the domain by rounding as balls may: 1e-12 of 20.
+TEST(CheckScene, AcceptsARegionAsWideAsTheDomainUpToRounding) {
+    const auto fault = [](double beyond) {
+        return fault_of([&](Scene& s) { s.fills[0].region = Box{{0, -beyond}, {10, 20 + beyond}}; });
+    };
+    EXPECT_EQ(fault(1.8e-11), "");
+    EXPECT_NE(fault(2.2e-11), "");
+    EXPECT_NE(fault_of([](Scene& s) { s.fills[0].region = Box{{0, -2.2e-11}, {10, 20}}; }), "");
+    EXPECT_NE(fault_of([](Scene& s) { s.fills[0].region = Box{{0, 0}, {10, 20 + 2.2e-11}}; }), "");
+}
+
+TEST(CheckScene, CountsTheBallsOfAFill) {
+    EXPECT_EQ(fault_of([](Scene& s) { s.fills[0].region = Box{{0, 0}, {10, 20}}; }), "");
+    const auto wide = [](Scene& s) {
+        s.domain->box = {{0, 0}, {1e5, 1e5}};
+        s.walls.clear();
+    };
+    EXPECT_EQ(fault_of([&](Scene& s) {
+                  wide(s);
+                  s.fills[0].count = 100'000'000;
+              }),
+              "");
+    EXPECT_NE(fault_of([&](Scene& s) {
+                  wide(s);
+                  s.fills[0].count = 100'000'001;
+              }),
+              "");
+    // 16 discs of radius 0.5 in the 4 x 4 of a region away from the origin cover pi / 4 of it, 19 more than
+    // 0.9069.
+    const auto in_square = [](std::uint64_t count) {
+        return fault_of([&](Scene& s) {
+            s.fills[0].count = count;
+            s.fills[0].region = Box{{4, 4}, {8, 8}};
+        });
+    };
+    EXPECT_EQ(in_square(16), "");
+    EXPECT_NE(in_square(19), "");
+    // A number of balls is told in full as long as it has a meaning, which ends somewhere below 2^63
+    // = 9.2e18.
+    const auto of_radius = [](double radius) {
+        return fault_of([&](Scene& s) {
+            s.fills[0].count.reset();
+            s.fills[0].packing_fraction = 0.5;
+            s.fills[0].radius_min = s.fills[0].radius_max = radius;
+        });
+    };
+    EXPECT_EQ(of_radius(7e-9).find("e+"), std::string::npos) << "100 / (pi r^2) is 6.5e17";
+    EXPECT_NE(of_radius(1e-9).find("e+19"), std::string::npos) << "3.2e19";
 }
 
 TEST(CheckScene, NamesTheFirstFaultAmongMany) {

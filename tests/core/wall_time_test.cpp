@@ -38,6 +38,7 @@ TEST(SideTime, MeetsTheSide) {
 
 TEST(SideTime, FollowsTheRuleInContact) {
     EXPECT_EQ(side(0, -1, 0), 0) << "approaches";
+    EXPECT_EQ(side(0, -1e-170, 0), 0) << "approaches, however slowly";
     EXPECT_EQ(side(0, 1, 0), kInfinity) << "leaves";
     EXPECT_EQ(side(0, 0, 0), kInfinity) << "rests";
     EXPECT_EQ(side(0, 0, -1), 0) << "rests and is pressed on";
@@ -146,6 +147,33 @@ TEST(WallTime, TheTipsNormalPointsFromTheTip) {
     EXPECT_NEAR(n.y(), 0.8, 16 * kEpsilon);
 }
 
+TEST(WallTime, TheFacesNormalPointsToTheLeft) {
+    EXPECT_EQ(face_normal<double>({1, 1}, {3, 1}), Vec2(0, 1));
+    EXPECT_EQ(face_normal<double>({1, 1}, {0.5, 1}), Vec2(0, -1));
+    EXPECT_EQ(face_normal<double>({1, 1}, {1, 3}), Vec2(-1, 0));
+    EXPECT_EQ(face_normal<double>({1, 1}, {1, 0.5}), Vec2(1, 0));
+    EXPECT_EQ(face_normal<double>({1, 1}, {1, 1}), Vec2(0, 0)) << "no length";
+}
+
+// The foot goes by -1 + t / 2 + 5e-19 t^2, a parabola that is a line as far as doubles see.
+TEST(WallTime, CrossesTheEndsUnderATinyAcceleration) {
+    const detail::FootCrossings<double> crossings(-1, 0.5, 1e-18, 1);
+    EXPECT_EQ(crossings.next(0), 2);
+    EXPECT_EQ(crossings.next(3), 4);
+    EXPECT_EQ(crossings.next(5), kInfinity);
+}
+
+// Height t - t^2: at time 1 the centre comes down through the line. So it is on its way to the other side.
+TEST(WallTime, OnTheLineTheSideIsTheOneItGoesTo) {
+    const Motion<double> arch{{0, 0}, {0, 1}, {0, -2}};
+    const detail::LineApproach<double> rising(arch, 0.25, {-1, 0}, {1, 0}, 0.0);
+    EXPECT_EQ(rising.speed, 1);
+    const detail::LineApproach<double> falling(arch, 0.25, {-1, 0}, {1, 0}, 1.0);
+    EXPECT_EQ(falling.speed, -1) << "seen from below";
+    EXPECT_EQ(falling.acceleration, 2);
+    EXPECT_EQ(falling.gap, -0.25);
+}
+
 TEST(WallTime, HasTwoSides) {
     EXPECT_EQ(hit({0, 3}, {0, -1}, {0, 0}, 1, {-2, 0}, {2, 0}).time, 2);
     EXPECT_EQ(hit({0, -3}, {0, 1}, {0, 0}, 1, {-2, 0}, {2, 0}).time, 2);
@@ -159,7 +187,18 @@ TEST(WallTime, HitsAnEndHeadOn) {
     EXPECT_EQ(h.feature, WallFeature::kFrom);
 }
 
+TEST(WallTime, FallsOnAnEndAlongTheWall) {
+    for (const double a : {6.0, 1.5}) {
+        const WallHit<double> h = hit({-4, 0}, {0, 0}, {a, 0}, 1, {0, 0}, {2, 0});
+        EXPECT_EQ(h.time, std::sqrt(6 / a));
+        EXPECT_EQ(h.feature, WallFeature::kFrom);
+    }
+    EXPECT_EQ(hit({-3, 0}, {0, 0}, {1, 0}, 1, {0, 0}, {2, 0}).time, 2);
+}
+
 TEST(WallTime, PassesBeyondTheEnds) {
+    EXPECT_EQ(hit({3.5, 3}, {0, -1}, {0, 0}, 1, {-2, 0}, {2, 0}).feature, WallFeature::kFace)
+        << "as of no hit";
     EXPECT_EQ(hit({3.5, 3}, {0, -1}, {0, 0}, 1, {-2, 0}, {2, 0}).time, kInfinity);
     EXPECT_EQ(hit({0, 3}, {1, 0}, {0, 0}, 1, {-2, 0}, {2, 0}).time, kInfinity);
     EXPECT_EQ(hit({3, 3}, {0, -1}, {0, 0}, 1, {-2, 0}, {2, 0}).time, kInfinity)
@@ -177,6 +216,8 @@ TEST(WallTime, FollowsTheRuleInContact) {
         << "on the line itself, leaves upwards";
     EXPECT_EQ(hit({0, 0}, {0, 0}, {0, 0}, 1, {-2, 0}, {2, 0}).time, kInfinity)
         << "on the line itself, at rest";
+    EXPECT_EQ(hit({0, 0}, {0, 0}, {0, 0.5}, 1, {-2, 0}, {2, 0}).time, kInfinity)
+        << "on the line itself, drawn upwards";
 }
 
 // From the end's disc over the join to the face: pressed on by gravity there, it must be hit where it enters,
@@ -197,7 +238,9 @@ TEST(WallTime, AWallWithoutLengthIsAPoint) {
     const WallHit<double> h = hit({-5, 0}, {1, 0}, {0, 0}, 1, {0, 0}, {0, 0});
     EXPECT_EQ(h.time, 4);
     EXPECT_EQ(h.feature, WallFeature::kFrom);
+    EXPECT_EQ(hit({-1.5, 0}, {1, 0}, {0, 0}, 1, {0, 0}, {0, 0}).time, 0.5);
     EXPECT_EQ(hit({-5, 2}, {1, 0}, {0, 0}, 1, {0, 0}, {0, 0}).time, kInfinity);
+    EXPECT_EQ(hit({-5, 2}, {1, 0}, {0, 0}, 1, {0, 0}, {0, 0}).feature, WallFeature::kFace) << "as of no hit";
 }
 
 TEST(WallTime, ReadsASceneWall) {

@@ -23,10 +23,7 @@ class EventQueue {
     explicit EventQueue(std::size_t count) { reset(count), rebuild(); }
 
     /// `count` entries, all at infinity, each to be put() before rebuild().
-    void reset(std::size_t count) {
-        slots_.assign(std::max<std::size_t>(count, 1), Slot{});
-        year_length_ = 0;
-    }
+    void reset(std::size_t count) { slots_.assign(std::max<std::size_t>(count, 1), Slot{}); }
 
     /// Changes one key of many; call rebuild() before the next front(). Keys are no NaN.
     void put(std::uint32_t id, double key) { slots_[id] = {key, slots_[id].turn + 1}; }

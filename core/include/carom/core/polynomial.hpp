@@ -39,7 +39,7 @@ template <class T>
     return t;
 }
 
-/// A power of two above the cube root of x > 0, less than four times it.
+/// A power of two above the cube root of x > 0, at most twice that root.
 template <class T>
 [[nodiscard]] inline T above_cube_root(const T& x) {
     using std::frexp;
