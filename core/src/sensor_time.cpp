@@ -60,14 +60,14 @@ Stretches where_negative(const F& f, std::span<const double> turning_points, con
         low += step;
     }
     if (is_inside) found.push_back({entry, kForEver});
-    std::erase_if(found, [&](const Stretch& s) { return s.from > search.horizon || s.from == s.to; });
+    std::erase_if(found, [&](const Stretch& s) { return s.from > search.horizon; });
     return found;
 }
 
 /// Where c0 + c1 t + c2 t^2 < 0.
 Stretches where_negative(double c0, double c1, double c2, const Search& search) {
     const double turn = -c1 / (2 * c2);
-    const bool turns = c2 != 0 && turn > 0 && std::isfinite(turn);
+    const bool turns = turn > 0 && std::isfinite(turn);
     return where_negative([=](double t) { return c0 + t * (c1 + t * c2); },
                           std::span<const double>(&turn, turns ? 1 : 0), search);
 }
@@ -99,7 +99,7 @@ Stretches inside_disc(const Motion<double>& m, double reach, const Search& searc
             add(to);
             return false;
         });
-    } else if (rate.c0 < 0 && rate.c1 > 0) {
+    } else {
         add(-rate.c0 / rate.c1);
     }
     return where_negative([&](double t) { return length_squared<double>(position_at(m, t)) - reach * reach; },
@@ -169,8 +169,7 @@ std::vector<Stretch> stretches_inside(const Motion<double>& motion, double radiu
     const double speed = std::sqrt(length_squared(motion.velocity));
     const double pull = std::sqrt(length_squared(motion.acceleration));
     const double quickness = speed + std::sqrt(pull * reach);
-    const Search search{
-        horizon, quickness > 0 ? std::max(reach / quickness, std::numeric_limits<double>::min()) : kForEver};
+    const Search search{horizon, std::max(reach / quickness, std::numeric_limits<double>::min())};
     const std::vector<Vec2>& corners = sensor.corners;
     const std::size_t n = corners.size();
     std::vector<Stretch> all;

@@ -78,10 +78,11 @@ Sensor random_sensor(Random& random) {
     } else {  // on a circle, so convex
         const int n = 3 + static_cast<int>(random.uniform(0, 5));
         const double start = random.uniform(0, 6);
+        const double size = random.uniform(0.1, 2);
         const double way = random.sign() * 2 * std::numbers::pi / n;
         for (int k = 0; k < n; ++k) {
             const double angle = start + way * (k + random.uniform(-0.3, 0.3));
-            s.corners.push_back(centre + 2 * Vec2(std::cos(angle), std::sin(angle)));
+            s.corners.push_back(centre + size * Vec2(std::cos(angle), std::sin(angle)));
         }
     }
     s.radius = kind % 2 == 0 ? random.uniform(0, 1) : 0;
@@ -100,6 +101,11 @@ TEST(SensorTime, AgreesWithTheDistanceAtAnyTime) {
         const Motion<double> m{random.vector(4), random.vector(1.5), curved ? random.vector(1) : Vec2(0, 0)};
         const double radius = random.uniform(0.1, 1);
         const auto stretches = stretches_inside(m, radius, sensor, 5);
+        for (const Stretch& s : stretches) {
+            ASSERT_GE(s.from, 0);
+            ASSERT_GT(s.to, s.from);
+            ASSERT_LE(s.from, 5) << "beyond the horizon";
+        }
         for (std::size_t i = 0; i + 1 < stretches.size(); ++i)
             ASSERT_LT(stretches[i].to, stretches[i + 1].from);
         for (int i = 0; i < 50; ++i) {
