@@ -16,6 +16,8 @@ class Replay {
     /// At the start of a world of `scene`, whose fills are placed.
     Replay(const Scene& scene, const World& world);
 
+    /// After edits, from what the world is now. `scene` is what it has become.
+    void start_anew(const Scene& scene, const World& world);
     /// Every collision, in the order in which the world tells them.
     void take(const Collision& c);
     /// The world at a time up to which all collisions have been taken.
@@ -43,6 +45,8 @@ class Replay {
         double inverse_mass_second = 0;
     };
 
+    [[nodiscard]] std::size_t index_of(std::uint32_t id) const;
+    [[nodiscard]] bool has_partner(const Collision& c) const;
     void blame(const Collision& c, const std::string& what, double found, double bound);
     [[nodiscard]] bool is_well_formed(const Collision& c);
     [[nodiscard]] double restitution_of(const Collision& c) const;
@@ -52,11 +56,13 @@ class Replay {
     void compare_energy(const World& world, double time);
 
     Scene scene_;
+    std::vector<std::uint32_t> ids_;  ///< of the scene's balls, rising
+    std::vector<std::uint32_t> wall_ids_;
     std::vector<Course> courses_;
-    bool follows_velocities_;  ///< neither the field nor a speed factor changes them unseen
-    double rounding_;          ///< half an ulp of 1, in what states are held
-    double rest_time_;
-    double corner_;  ///< the box's farthest point from the origin
+    bool follows_velocities_ = true;  ///< neither the field nor a speed factor changes them unseen
+    double rounding_ = 0;             ///< half an ulp of 1, in what states are held
+    double rest_time_ = 0;            ///< at most: edits leave it or derive it anew
+    double corner_ = 0;               ///< the box's farthest point from the origin
     double last_time_ = 0;
     double energy_ = 0;        ///< as it follows
     double energy_doubt_ = 0;  ///< rounding, summed

@@ -3,6 +3,7 @@
 #include "scenes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -149,6 +150,18 @@ void draw_balls(Draw& draw, Scene& s, std::size_t count) {
     }
 }
 
+/// Three kinds, of which some meet only some; and balls wherever those that they pass through leave room.
+void draw_filters(Draw& draw, Scene& s, std::size_t count) {
+    if (!draw.one_in(5)) return;
+    std::array<CollisionFilter, 3> kinds;
+    for (CollisionFilter& kind : kinds) kind = draw.filter();
+    const auto share = [&](auto& body) { body.filter = kinds[draw.below(kinds.size())]; };
+    if (draw.one_in(2)) add_bodies(draw, s, 1 + count / 2, 0.6, false);
+    std::ranges::for_each(s.balls, share);
+    if (draw.one_in(2)) std::ranges::for_each(s.walls, share);
+    if (!s.allows_overlap) drop_overlapping(s);
+}
+
 void draw_velocities(Draw& draw, Scene& s) {
     const double at_rest = draw.one_in(3) ? draw.uniform(0, 1) : 0;
     const Vec2 drift = draw.one_in(5) ? draw.direction(draw.decades(-1, 2)) : Vec2(Vec2::Zero());
@@ -278,6 +291,7 @@ Scene draw_scene(std::uint64_t seed, std::size_t most_balls) {
     const auto count = static_cast<std::size_t>(draw.decades(0.3, std::log10(double(most_balls))));
     draw_domain(draw, s, std::max<std::size_t>(count, 1));
     draw_balls(draw, s, std::max<std::size_t>(count, 1));
+    draw_filters(draw, s, count);
     draw_velocities(draw, s);
     draw_masses(draw, s);
     draw_losses(draw, s);
