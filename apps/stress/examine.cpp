@@ -59,13 +59,14 @@ class Examination {
         return stop > snapshot_stop_ || !snapshot_is_edited_;
     }
     void check_state(Watched& watched);
+    void expect_refusals(World& world);
     void expect_same(Watched& watched, std::size_t stop, bool is_edited);
     void advance(Watched& watched, double stop, bool in_frames);
     [[nodiscard]] WorldOptions drawn_options();
 
     /// What a world shows at a stop.
     struct Shown {
-        std::uint64_t hash, events, balls, walls;
+        std::uint64_t hash, events, balls, walls, steps, missed;
         double virial, energy;
     };
     /// What of it is another; empty where nothing is.
@@ -96,8 +97,9 @@ class Examination {
 
 Examination::Shown Examination::shown(const Watched& w) {
     const Counts counts = w.world().counts();
-    return {w.world().state_hash(), w.seen().events.value, counts.ball_collisions,
-            counts.wall_collisions, w.world().virial(),    w.world().energy()};
+    return {w.world().state_hash(), w.seen().events.value,    counts.ball_collisions,
+            counts.wall_collisions, counts.steps.value_or(0), counts.missed_collisions.value_or(0),
+            w.world().virial(),     w.world().energy()};
 }
 
 std::string Examination::difference(const Shown& got, const Shown& expected) {
@@ -105,6 +107,8 @@ std::string Examination::difference(const Shown& got, const Shown& expected) {
     if (got.balls != expected.balls) return "number of ball collisions";
     if (got.walls != expected.walls) return "number of wall collisions";
     if (got.events != expected.events) return "list of collisions";
+    if (got.steps != expected.steps) return "number of steps";
+    if (got.missed != expected.missed) return "number of missed collisions";
     if (got.virial != expected.virial) return "virial";
     return got.energy != expected.energy ? "energy" : "";
 }
@@ -188,9 +192,28 @@ void Examination::run_through(Watched& plain, Replay& replay, Verdict& verdict) 
     }
 }
 
+/// The empirical method keeps no snapshots and takes no edits, and says so.
+void Examination::expect_refusals(World& world) {
+    const auto refuses = [](auto&& ask) {
+        try {
+            ask();
+        } catch (const SnapshotError&) {
+            return true;
+        } catch (const std::logic_error&) {
+            return true;
+        }
+        return false;
+    };
+    if (!refuses([&] { static_cast<void>(world.snapshot()); }))
+        throw Failure{"empirical", "a snapshot is not refused"};
+    if (!refuses([&] { static_cast<void>(world.apply({})); }))
+        throw Failure{"empirical", "an edit is not refused"};
+}
+
 /// The run that all others are compared with: one thread, one domain, each stretch at once.
 void Examination::run_plain(Verdict& verdict) {
     Watched plain("plain", World(scene_, {.threads = 1, .domains = 1}));
+    if (scene_.method == Method::kEmpirical) expect_refusals(plain.world());
     has_field_ = !scene_.attractors.empty();
     Replay replay(scene_, plain.world());
     legs_.push_back(leg_from(scene_, plain.world(), false));
@@ -198,7 +221,7 @@ void Examination::run_plain(Verdict& verdict) {
     plain.listen([&](const Collision& c) {
         if (++count > kMostCollisions) throw EnoughCollisions{};
         legs_.back().take(c);
-        replay.take(c);
+        replay.take(c, scene_.method == Method::kEmpirical ? *plain.world().counts().steps : 0);
     });
     snapshot_stop_ = draw_.below(kStretches + 1);
     snapshot_is_edited_ = draw_.one_in(2);

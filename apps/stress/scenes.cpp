@@ -220,6 +220,26 @@ void draw_forces(Draw& draw, Scene& s) {
     s.field_interval = draw.decades(-2, -0.5);
 }
 
+/// Steps of time, of travel, or both. The end comes early where balls are fast: the way of all steps is
+/// bounded.
+void draw_method(Draw& draw, Scene& s) {
+    if (!draw.one_in(6)) return;
+    s.method = Method::kEmpirical;
+    const std::size_t kind = draw.below(3);
+    if (kind != 0) s.step = draw.decades(-2.5, -0.5);
+    if (kind != 1) s.max_travel = draw.decades(-2, -0.3);
+    constexpr double kSteps = 500;
+    double fastest = 1;
+    double smallest = 1;
+    for (const Ball& b : s.balls) {
+        fastest = std::max(fastest, std::sqrt(length_squared<double>(b.velocity)));
+        smallest = std::min(smallest, b.radius);
+    }
+    if (draw.one_in(2)) s.tolerance = smallest * draw.decades(-10, -2);
+    if (s.max_travel) s.until = std::min(s.until, kSteps * *s.max_travel * smallest / fastest);
+    if (s.step) s.until = std::min(s.until, kSteps * *s.step);
+}
+
 /// Far from the origin, in other units, in float.
 void draw_units(Draw& draw, Scene& s) {
     const bool in_float = draw.one_in(6);
@@ -249,6 +269,8 @@ void draw_units(Draw& draw, Scene& s) {
         b.mass *= mass;
     }
     s.until *= time;
+    if (s.step) *s.step *= time;
+    if (s.tolerance) *s.tolerance *= length;
     if (in_float) s.precision = Precision::kFloat;
 }
 
@@ -297,6 +319,7 @@ Scene draw_scene(std::uint64_t seed, std::size_t most_balls) {
     draw_losses(draw, s);
     draw_forces(draw, s);
     s.until = draw.decades(-0.5, 1.2);
+    draw_method(draw, s);
     draw_units(draw, s);
     mend(s);
     return s;

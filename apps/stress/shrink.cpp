@@ -78,6 +78,10 @@ class Shrinker {
         reset(&Scene::contact_time);
         reset(&Scene::speed_factor);
         reset(&Scene::precision);
+        reset(&Scene::method);
+        reset(&Scene::step);
+        reset(&Scene::max_travel);
+        reset(&Scene::tolerance);
         reset(&Scene::allows_overlap);
         reset(&Scene::field_interval);
         if (!trial_.scene.domain) return;
