@@ -1,5 +1,5 @@
 // read_file in large blocks; the size is not asked for, because pipes have none.
-#include "read_file.hpp"
+#include <carom/io/read_file.hpp>
 
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // What is read as a file: regular files and what the program was given open; nothing that has no end.
-#include "read_file.hpp"
+#include <carom/io/read_file.hpp>
 
 #include <sys/stat.h>
 #include <unistd.h>
