@@ -51,7 +51,7 @@ class Examination {
     void take_snapshot(const Watched& plain, std::size_t stop, bool is_edited);
     void follow_reference();
     void run_other(const std::string& name, const WorldOptions& options, bool in_frames, bool resumes);
-    void restore_and_repeat(Watched& plain);
+    void restore_and_repeat(Watched& plain, const Snapshot& snapshot);
     void repeat_edits(Watched& watched, std::size_t stop);
     /// Whether the edits of a stop from the snapshot on are still to come. Those that have been made may have
     /// events at once, which no stop before them has.
@@ -235,12 +235,12 @@ void Examination::run_plain(Verdict& verdict) {
     }
     verdict.collisions = count;
     if (!replay.fault().empty()) throw Failure{"physics", replay.fault()};
-    if (reached_ > kStretches && snapshot_) restore_and_repeat(plain);
+    if (reached_ > kStretches && snapshot_) restore_and_repeat(plain, *snapshot_);
 }
 
-void Examination::restore_and_repeat(Watched& plain) {
+void Examination::restore_and_repeat(Watched& plain, const Snapshot& snapshot) {
     plain.listen(nullptr);
-    plain.world().restore(*snapshot_);
+    plain.world().restore(snapshot);
     plain.set_seen(seen_at_snapshot_);
     for (std::size_t k = snapshot_stop_; k < reached_; ++k) {
         if (is_before_edits(k)) {
@@ -287,7 +287,7 @@ void Examination::run_other(const std::string& kind, const WorldOptions& options
     const std::string name = fmt::format("{} (threads {}, domains {}, halo {}, cell size {})", kind,
                                          options.threads, options.domains, options.halo, options.cell_size);
     std::optional<Watched> watched;
-    if (resumes) {
+    if (resumes && snapshot_) {
         watched.emplace(name, World(scene_, options, *snapshot_));
         watched->set_seen(seen_at_snapshot_);
     } else {
