@@ -31,19 +31,6 @@ CLI::Validator number_check(const std::string& rule, IsGood is_good) {
             ""};
 }
 
-template <class Parse>
-CLI::Validator parse_check(Parse parse) {
-    return {[parse](std::string& text) {
-                try {
-                    parse(text);
-                } catch (const std::exception& error) {
-                    return std::string(error.what());
-                }
-                return std::string();
-            },
-            ""};
-}
-
 constexpr int kMostThreads = 4096;
 
 // An option that takes one of two words, the enumerators' names.

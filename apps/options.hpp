@@ -14,6 +14,20 @@
 
 namespace carom::app {
 
+/// Refuses what `parse` throws at, with what it says.
+template <class Parse>
+[[nodiscard]] CLI::Validator parse_check(Parse parse) {
+    return {[parse](std::string& text) {
+                try {
+                    parse(text);
+                } catch (const std::exception& error) {
+                    return std::string(error.what());
+                }
+                return std::string();
+            },
+            ""};
+}
+
 /// A finite number > 0.
 [[nodiscard]] CLI::Validator positive_number();
 /// A finite number >= 0.

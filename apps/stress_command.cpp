@@ -21,6 +21,7 @@
 #include "options.hpp"
 #include "outputs.hpp"
 #include "stress/campaign.hpp"
+#include "stress/edits.hpp"
 
 namespace carom::app {
 namespace {
@@ -28,7 +29,8 @@ namespace {
 constexpr const char* kFooter =
     R"(Draws scene after scene from all that a scene can have: gases and piles in periodic, walled and open boxes, walls that meet,
 static and large balls, masses from 1e-3 to 1e6, gravity, own accelerations, attractors, losses, touching and overlapping
-starts, fast balls, float, other units. Each is run by several worlds with other threads, domains, cells and frames, and one
+starts, fast balls, float, other units, categories and masks; half of them are edited as they run: balls, walls and forces come,
+change and go. Each is run by several worlds with other threads, domains, cells and frames, and one
 that goes on from a snapshot. After each stretch of time all must show the same bits, and it is checked that no bodies overlap, that
 the list of collisions goes forward, obeys the law of impact and leads to the velocities and the energy shown, and, in small
 scenes, that each event is the one that a look at all pairs finds.
@@ -44,7 +46,7 @@ Examples:
   carom stress                              For a minute
   carom stress --minutes 30 --seed 7
   carom stress --scenes 200 --seed 1        The same work wherever it runs
-  carom stress my-scene.json)";
+  carom stress my-scene.json --edits all    With balls, walls and forces that come, change and go)";
 
 struct StressOptions {
     std::vector<std::string> files;
@@ -54,8 +56,25 @@ struct StressOptions {
     std::optional<std::uint64_t> scenes;
     std::optional<double> minutes;
     std::optional<double> seconds;
+    std::string edits = "none";
     std::string folder = ".";
 };
+
+/// `all`, `none`, or numbers. Throws std::invalid_argument.
+std::vector<std::uint32_t> parse_edits(const std::string& text) {
+    if (text == "all") return stress::all_edits();
+    std::vector<std::uint32_t> numbers;
+    if (text == "none") return numbers;
+    for (const std::string& word : CLI::detail::split(text, ',')) {
+        std::uint32_t number = 0;
+        if (!CLI::detail::lexical_cast(word, number) || number >= stress::kMostEdits)
+            throw std::invalid_argument(
+                fmt::format("must be all, none, or some of 0 to {} with commas between them, is '{}'",
+                            stress::kMostEdits - 1, text));
+        numbers.push_back(number);
+    }
+    return numbers;
+}
 
 /// On a terminal, one line that is written over and over.
 class ProgressLine {
@@ -88,8 +107,10 @@ class ProgressLine {
 
 /// What failed, the file, and how to see it again.
 void report_failure(const stress::Trial& trial, const stress::Verdict& verdict, const std::string& path) {
-    fmt::print(stderr, "carom: {} fails: {}: {}\n  repeat: carom stress '{}' --seed {} --threads {}\n",
-               trial.scene.name, verdict.check, verdict.detail, path, trial.seed, trial.threads);
+    const std::string edits =
+        trial.edits.empty() ? "" : fmt::format(" --edits {}", fmt::join(trial.edits, ","));
+    fmt::print(stderr, "carom: {} fails: {}: {}\n  repeat: carom stress '{}' --seed {} --threads {}{}\n",
+               trial.scene.name, verdict.check, verdict.detail, path, trial.seed, trial.threads, edits);
 }
 
 void write_failure(const stress::Trial& trial, const stress::Verdict& verdict, const std::string& folder) {
@@ -103,7 +124,7 @@ stress::Tally examine_files(const StressOptions& options, int threads) {
     stress::Tally tally;
     for (const std::string& path : options.files) {
         if (interrupt_requested()) break;
-        stress::Trial trial{read_scene(path), options.seed, threads};
+        stress::Trial trial{read_scene(path), options.seed, threads, parse_edits(options.edits)};
         trial.scene.balls = place_balls(trial.scene);
         trial.scene.fills.clear();
         const stress::Verdict verdict = stress::examine(trial);
@@ -169,8 +190,9 @@ void add_stress_command(CLI::App& app, int& status) {
     CLI::App* const command = app.add_subcommand("stress", "Check every promise on random adverse scenes");
     command->footer(kFooter);
     const auto options = std::make_shared<StressOptions>();
-    command->add_option("SCENE", options->files, "Scene files to be examined instead of random ones")
-        ->type_name("");
+    CLI::Option* const files =
+        command->add_option("SCENE", options->files, "Scene files to be examined instead of random ones")
+            ->type_name("");
     command->add_option("--balls", options->most_balls, "Most balls of a scene (default: 300)")
         ->type_name("N")
         ->check(CLI::Range(2, 1'000'000));
@@ -187,6 +209,13 @@ void add_stress_command(CLI::App& app, int& status) {
     command->add_option("--seed", options->seed, "Of the scenes; each has others (default: 1)")
         ->type_name("S")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
+    command
+        ->add_option(
+            "--edits", options->edits,
+            "Edits that SCENE files get, drawn from the seed: all, or some of 0 to 11 (default: none)")
+        ->type_name("LIST")
+        ->needs(files)
+        ->check(parse_check([](const std::string& text) { (void)parse_edits(text); }));
     add_threads_option(*command, options->threads);
     command->add_option("--out", options->folder, "Folder for scenes that fail (default: .)")
         ->type_name("DIR");

@@ -6,10 +6,11 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include <carom/io/atomic_file.hpp>
+#include <carom/io/read_file.hpp>
 
 namespace carom::app {
 namespace {
@@ -46,9 +47,9 @@ Curve curve_of(const Table& table, std::size_t column, std::string label) {
 }  // namespace
 
 Table read_table(const std::string& path) {
-    std::ifstream file(path);
+    std::istringstream file(read_file(path));
     std::string line;
-    if (!file || !std::getline(file, line)) throw FileError(path, "cannot be read, or is empty");
+    if (!std::getline(file, line)) throw FileError(path, "is empty");
     Table table;
     table.names = cells_of(line);
     if (table.names.size() < 2) throw FileError(path, "has no header of two or more column names");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "edits.hpp"
 #include "hash.hpp"
 #include "scenes.hpp"
 
@@ -29,7 +30,7 @@ Tally run_campaign(const CampaignOptions& options, const CampaignWatch& watch) {
     };
     while (goes_on()) {
         const std::uint64_t seed = seed_of_scene(options.seed, tally.scenes);
-        Trial trial{draw_scene(seed, options.most_balls), seed, options.threads};
+        Trial trial{draw_scene(seed, options.most_balls), seed, options.threads, drawn_edits(seed)};
         trial.scene.name = fmt::format("stress seed {}, scene {}", options.seed, tally.scenes);
         watch.drawn(trial);
         Verdict verdict = examine(trial);

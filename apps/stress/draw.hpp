@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <random>
 
+#include <carom/core/scene.hpp>
 #include <carom/core/vector.hpp>
 
 namespace carom::stress {
@@ -30,6 +31,12 @@ class Draw {
     Vec2 direction(double length) {
         const double angle = uniform(0, 6.283185307179586);
         return {length * std::cos(angle), length * std::sin(angle)};
+    }
+    /// One of three kinds, that meets all or some of them.
+    CollisionFilter filter() {
+        constexpr std::uint32_t kKinds = 3;
+        const std::uint32_t category = 1U << below(kKinds);
+        return {category, one_in(3) ? CollisionFilter().mask : std::uint32_t(below(1U << kKinds))};
     }
     std::uint64_t bits() { return bits_(); }
 

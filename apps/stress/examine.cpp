@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,20 +12,18 @@
 #include <carom/parallel/world.hpp>
 
 #include "draw.hpp"
-#include "hash.hpp"
+#include "edits.hpp"
+#include "leg.hpp"
 #include "overlaps.hpp"
-#include "reference_engine.hpp"
 #include "replay.hpp"
+#include "watched.hpp"
 
 namespace carom::stress {
 namespace {
 
-constexpr int kStretches = 5;
+// Of time, between stops. The first stop is the beginning, the last one the end.
+constexpr std::size_t kStretches = 5;
 constexpr std::uint64_t kMostCollisions = 100'000;
-constexpr std::size_t kEventsOfReference = 300;
-// All pairs at each event.
-constexpr std::size_t kMostBallsOfReference = 64;
-constexpr double kMostPeriodsOfReference = 6;
 
 /// Something that does not hold.
 struct Failure {
@@ -37,47 +33,11 @@ struct Failure {
 
 struct EnoughCollisions {};
 
-/// What the collisions until now come to.
-struct Seen {
-    Hash events;
-    std::vector<std::uint32_t> by_ball;  ///< how many of them each ball had
-};
-
-/// A world and what is seen of it.
-class Watched {
- public:
-    Watched(const std::string& name, World world) : name_(name), world_(std::move(world)) {
-        seen_ = std::make_unique<Seen>();
-        seen_->by_ball.resize(world_.ball_count());
-        listen(nullptr);
-    }
-    /// Hands each collision to `listener` besides.
-    void listen(std::function<void(const Collision&)> listener) {
-        world_.on_collision([seen = seen_.get(), listener = std::move(listener)](const Collision& c) {
-            seen->events << c.time << std::uint64_t(c.kind) << std::uint64_t{c.i} << std::uint64_t{c.j}
-                         << c.point << c.normal << c.impulse;
-            ++seen->by_ball[c.i];
-            if (c.kind == CollisionKind::kBall) ++seen->by_ball[c.j];
-            if (listener) listener(c);
-        });
-    }
-    [[nodiscard]] const std::string& name() const { return name_; }
-    [[nodiscard]] World& world() { return world_; }
-    [[nodiscard]] const Seen& seen() const { return *seen_; }
-    void set_seen(const Seen& seen) { *seen_ = seen; }
-
- private:
-    std::string name_;
-    World world_;
-    std::unique_ptr<Seen> seen_;  // its address stays when this is moved
-};
-
 class Examination {
  public:
-    explicit Examination(const Trial& trial)
-        : scene_(trial.scene), threads_(trial.threads), draw_(trial.seed) {
+    explicit Examination(const Trial& trial) : trial_(trial), scene_(trial.scene), draw_(trial.seed) {
         double end = 0;
-        for (double& stop : stops_) stop = end += draw_.uniform(0.05, 1);
+        for (std::size_t k = 1; k <= kStretches; ++k) stops_[k] = end += draw_.uniform(0.05, 1);
         for (double& stop : stops_) stop *= scene_.until / end;
         stops_.back() = scene_.until;
     }
@@ -86,43 +46,76 @@ class Examination {
 
  private:
     void run_plain(Verdict& verdict);
+    void run_through(Watched& plain, Replay& replay, Verdict& verdict);
+    void edit_plain(Watched& plain, std::size_t stop, Replay& replay);
+    void take_snapshot(const Watched& plain, std::size_t stop, bool is_edited);
     void follow_reference();
     void run_other(const std::string& name, const WorldOptions& options, bool in_frames, bool resumes);
     void restore_and_repeat(Watched& plain, const Snapshot& snapshot);
+    void repeat_edits(Watched& watched, std::size_t stop);
+    /// Whether the edits of a stop from the snapshot on are still to come. Those that have been made may have
+    /// events at once, which no stop before them has.
+    [[nodiscard]] bool is_before_edits(std::size_t stop) const {
+        return stop > snapshot_stop_ || !snapshot_is_edited_;
+    }
     void check_state(Watched& watched);
-    void expect_same(Watched& watched, std::size_t stop);
+    void expect_refusals(World& world);
+    void expect_same(Watched& watched, std::size_t stop, bool is_edited);
     void advance(Watched& watched, double stop, bool in_frames);
     [[nodiscard]] WorldOptions drawn_options();
 
     /// What a world shows at a stop.
     struct Shown {
-        std::uint64_t hash, events, balls, walls;
+        std::uint64_t hash, events, balls, walls, steps, missed;
         double virial, energy;
-        bool operator==(const Shown&) const = default;
     };
-    [[nodiscard]] static Shown shown(Watched& watched);
+    /// What of it is another; empty where nothing is.
+    [[nodiscard]] static std::string difference(const Shown& got, const Shown& expected);
+    [[nodiscard]] static Shown shown(const Watched& watched);
 
-    Scene scene_;
-    int threads_;
+    /// An edit of the plain run, and what became of it.
+    struct Taken {
+        Edits edits;
+        std::string answer;
+    };
+
+    const Trial& trial_;
+    const Scene& scene_;
     Draw draw_;
-    std::array<double, kStretches> stops_{};
-    std::size_t reached_ = 0;  ///< stops of the plain run
-    std::vector<Shown> plain_;
-    std::vector<Collision> first_events_;
+    std::array<double, kStretches + 1> stops_{};
+    std::size_t reached_ = 0;                           ///< stops of the plain run
+    std::vector<std::array<Shown, 2>> plain_;           ///< a stop, before and after its edits
+    std::array<std::vector<Taken>, kStretches> edits_;  ///< a stop
+    std::vector<Leg> legs_;
+    bool has_field_ = false;  ///< whether attractors have pulled
+
     std::optional<Snapshot> snapshot_;
     Seen seen_at_snapshot_;
     std::size_t snapshot_stop_ = 0;
+    bool snapshot_is_edited_ = false;  ///< whether it was taken after the stop's edits
 };
 
-Examination::Shown Examination::shown(Watched& w) {
+Examination::Shown Examination::shown(const Watched& w) {
     const Counts counts = w.world().counts();
-    return {w.world().state_hash(), w.seen().events.value, counts.ball_collisions,
-            counts.wall_collisions, w.world().virial(),    w.world().energy()};
+    return {w.world().state_hash(), w.seen().events.value,    counts.ball_collisions,
+            counts.wall_collisions, counts.steps.value_or(0), counts.missed_collisions.value_or(0),
+            w.world().virial(),     w.world().energy()};
+}
+
+std::string Examination::difference(const Shown& got, const Shown& expected) {
+    if (got.hash != expected.hash) return "state";
+    if (got.balls != expected.balls) return "number of ball collisions";
+    if (got.walls != expected.walls) return "number of wall collisions";
+    if (got.events != expected.events) return "list of collisions";
+    if (got.steps != expected.steps) return "number of steps";
+    if (got.missed != expected.missed) return "number of missed collisions";
+    if (got.virial != expected.virial) return "virial";
+    return got.energy != expected.energy ? "energy" : "";
 }
 
 WorldOptions Examination::drawn_options() {
     WorldOptions options;
-    options.threads = 1 + static_cast<int>(draw_.below(static_cast<std::size_t>(threads_)));
+    options.threads = 1 + static_cast<int>(draw_.below(static_cast<std::size_t>(trial_.threads)));
     double diameter = 0;
     for (const Ball& b : scene_.balls)
         if (!b.is_static) diameter = std::max(diameter, 2 * b.radius);
@@ -135,38 +128,105 @@ WorldOptions Examination::drawn_options() {
 void Examination::check_state(Watched& w) {
     if (const std::vector<Violation> found = w.world().validate(); !found.empty())
         throw Failure{"validate", w.name() + ": " + found.front().what};
-    double events = 0;
+    // Each edit, and each renewal of the field, may start a ball anew.
+    double events = double(trial_.edits.size());
     for (const std::uint32_t of_ball : w.seen().by_ball) events = std::max<double>(events, of_ball);
-    if (!scene_.attractors.empty()) events += w.world().time() / scene_.field_interval;
-    if (const std::string fault = find_misplaced(scene_, w.world(), events); !fault.empty())
+    if (has_field_) events += w.world().time() / scene_.field_interval;
+    if (const std::string fault = find_misplaced(scene_now(scene_, w.world()), w.world(), events);
+        !fault.empty())
         throw Failure{"overlap", w.name() + ": " + fault};
+}
+
+void Examination::take_snapshot(const Watched& plain, std::size_t stop, bool is_edited) {
+    if (stop != snapshot_stop_ || is_edited != snapshot_is_edited_ || scene_.method != Method::kEvent) return;
+    snapshot_ = plain.world().snapshot();
+    seen_at_snapshot_ = plain.seen();
+}
+
+/// The edits of this stop are drawn for the plain run's state; all other worlds get the same.
+void Examination::edit_plain(Watched& plain, std::size_t stop, Replay& replay) {
+    World& world = plain.world();
+    bool is_edited = false;
+    for (const std::uint32_t number : trial_.edits) {
+        if (stretch_of_edit(trial_.seed, number, kStretches) != stop || scene_.method != Method::kEvent)
+            continue;
+        const Edits edits = draw_edits(trial_.seed, number, scene_, world);
+        const Edited edited = apply_edits(world, edits);
+        edits_[stop].push_back({edits, edited.answer});
+        if (!edited.fault.empty())
+            throw Failure{"edits", fmt::format("edit {} at time {}: {}", number, world.time(), edited.fault)};
+        is_edited = is_edited || !edited.is_refused;
+    }
+    if (!is_edited) return;
+    const Scene now = scene_now(scene_, world);
+    has_field_ = has_field_ || !now.attractors.empty();
+    replay.start_anew(now, world);
+    legs_.push_back(leg_from(now, world, true));
+}
+
+void Examination::repeat_edits(Watched& w, std::size_t stop) {
+    if (stop >= edits_.size()) return;
+    for (const Taken& taken : edits_[stop]) {
+        const Edited edited = apply_edits(w.world(), taken.edits);
+        if (!edited.fault.empty()) throw Failure{"edits", w.name() + ": " + edited.fault};
+        if (edited.answer != taken.answer)
+            throw Failure{"edits", fmt::format("{}: an edit at time {} comes to '{}', must come to '{}'",
+                                               w.name(), stops_[stop], edited.answer, taken.answer)};
+    }
+}
+
+void Examination::run_through(Watched& plain, Replay& replay, Verdict& verdict) {
+    for (std::size_t k = 0; k <= kStretches; ++k) {
+        plain.world().advance_to(stops_[k]);
+        verdict.time = stops_[k];
+        legs_.back().end = stops_[k];
+        replay.compare(plain.world());
+        if (!replay.fault().empty()) return;
+        check_state(plain);
+        const Shown before = shown(plain);
+        take_snapshot(plain, k, false);
+        if (k < kStretches) edit_plain(plain, k, replay);
+        plain_.push_back({before, shown(plain)});
+        take_snapshot(plain, k, true);
+        ++reached_;
+    }
+}
+
+/// The empirical method keeps no snapshots and takes no edits, and says so.
+void Examination::expect_refusals(World& world) {
+    const auto refuses = [](auto&& ask) {
+        try {
+            ask();
+        } catch (const SnapshotError&) {
+            return true;
+        } catch (const std::logic_error&) {
+            return true;
+        }
+        return false;
+    };
+    if (!refuses([&] { static_cast<void>(world.snapshot()); }))
+        throw Failure{"empirical", "a snapshot is not refused"};
+    if (!refuses([&] { static_cast<void>(world.apply({})); }))
+        throw Failure{"empirical", "an edit is not refused"};
 }
 
 /// The run that all others are compared with: one thread, one domain, each stretch at once.
 void Examination::run_plain(Verdict& verdict) {
     Watched plain("plain", World(scene_, {.threads = 1, .domains = 1}));
+    if (scene_.method == Method::kEmpirical) expect_refusals(plain.world());
+    has_field_ = !scene_.attractors.empty();
     Replay replay(scene_, plain.world());
+    legs_.push_back(leg_from(scene_, plain.world(), false));
     std::uint64_t count = 0;
     plain.listen([&](const Collision& c) {
         if (++count > kMostCollisions) throw EnoughCollisions{};
-        if (first_events_.size() < kEventsOfReference) first_events_.push_back(c);
-        replay.take(c);
+        legs_.back().take(c);
+        replay.take(c, scene_.method == Method::kEmpirical ? *plain.world().counts().steps : 0);
     });
-    snapshot_stop_ = draw_.below(kStretches);
+    snapshot_stop_ = draw_.below(kStretches + 1);
+    snapshot_is_edited_ = draw_.one_in(2);
     try {
-        for (const double stop : stops_) {
-            plain.world().advance_to(stop);
-            verdict.time = stop;
-            replay.compare(plain.world());
-            if (!replay.fault().empty()) throw Failure{"physics", replay.fault()};
-            check_state(plain);
-            plain_.push_back(shown(plain));
-            if (reached_ == snapshot_stop_ && scene_.method == Method::kEvent) {
-                snapshot_ = plain.world().snapshot();
-                seen_at_snapshot_ = plain.seen();
-            }
-            ++reached_;
-        }
+        run_through(plain, replay, verdict);
     } catch (const EnoughCollisions&) {
         verdict.is_cut = true;
     } catch (const std::runtime_error& error) {
@@ -175,7 +235,7 @@ void Examination::run_plain(Verdict& verdict) {
     }
     verdict.collisions = count;
     if (!replay.fault().empty()) throw Failure{"physics", replay.fault()};
-    if (reached_ == kStretches && snapshot_) restore_and_repeat(plain, *snapshot_);
+    if (reached_ > kStretches && snapshot_) restore_and_repeat(plain, *snapshot_);
 }
 
 void Examination::restore_and_repeat(Watched& plain, const Snapshot& snapshot) {
@@ -183,55 +243,22 @@ void Examination::restore_and_repeat(Watched& plain, const Snapshot& snapshot) {
     plain.world().restore(snapshot);
     plain.set_seen(seen_at_snapshot_);
     for (std::size_t k = snapshot_stop_; k < reached_; ++k) {
-        plain.world().advance_to(stops_[k]);
-        if (shown(plain) != plain_[k])
-            throw Failure{"restore", fmt::format("restored at time {}, another state or list of collisions "
-                                                 "at time {}",
-                                                 stops_[snapshot_stop_], stops_[k])};
+        if (is_before_edits(k)) {
+            plain.world().advance_to(stops_[k]);
+            repeat_edits(plain, k);
+        }
+        if (const std::string what = difference(shown(plain), plain_[k][1]); !what.empty())
+            throw Failure{"restore", fmt::format("restored at time {}, another {} at time {}",
+                                                 stops_[snapshot_stop_], what, stops_[k])};
     }
 }
 
-/// Periods that two balls may pass between two events of theirs, seen from each other, in all of the time.
-double periods_passed(const Scene& scene) {
-    double speed = 0;
-    double pull = 0;
-    for (const Ball& b : scene.balls) {
-        speed = std::max(speed, std::sqrt(length_squared<double>(b.velocity)));
-        pull = std::max(pull, std::sqrt(length_squared<double>(b.acceleration + scene.gravity)));
-    }
-    double width = std::numeric_limits<double>::infinity();
-    for (int axis = 0; scene.domain && axis < 2; ++axis)
-        if (scene.domain->boundary[std::size_t(axis)] == Boundary::kPeriodic)
-            width = std::min(width, scene.domain->box.max[axis] - scene.domain->box.min[axis]);
-    // A light ball may leave a heavy one with twice its speed.
-    return 2 * (2 * speed + pull * scene.until) * scene.until / width;
-}
-
-/// Event by event against the engine that looks at all pairs.
+/// Event by event against the engine that looks at all pairs, from the start and after each edit.
 void Examination::follow_reference() {
-    if (!scene_.attractors.empty() || scene_.method != Method::kEvent || reached_ == 0) return;
-    if (scene_.balls.size() > kMostBallsOfReference || scene_.allows_overlap) return;
-    const double periods = periods_passed(scene_);
-    if (periods > kMostPeriodsOfReference) return;
-    BruteForceRules rules = rules_of(scene_);
-    rules.images = 1 + static_cast<int>(periods);
-    BruteForce reference(rules, scene_.balls, scene_.walls);
-    const std::size_t balls = scene_.balls.size();
-    for (std::size_t k = 0; k < kEventsOfReference && !reference.finished(); ++k) {
-        const BruteForceEvent expected = reference.next();
-        if (expected.time > stops_[reached_ - 1]) return;
-        if (k >= first_events_.size())
-            throw Failure{"reference", fmt::format("event {} at time {} between {} and {} is missed", k,
-                                                   expected.time, expected.i, expected.j)};
-        const Collision& got = first_events_[k];
-        const std::size_t j = got.kind == CollisionKind::kBall ? got.j : balls + got.j;
-        const std::size_t lower = std::min<std::size_t>(got.i, j);
-        const std::size_t higher = std::max<std::size_t>(got.i, j);
-        if (got.time == expected.time && lower == expected.i && higher == expected.j) continue;
-        throw Failure{"reference",
-                      fmt::format("event {} is at time {} between {} and {}, must be at {} between {} and {}",
-                                  k, got.time, lower, higher, expected.time, expected.i, expected.j)};
-    }
+    if (reached_ == 0) return;
+    for (const Leg& leg : legs_)
+        if (const std::string difference = find_difference(leg); !difference.empty())
+            throw Failure{"reference", difference};
 }
 
 /// To the stop at once, or in frames of any length, read now and then.
@@ -249,36 +276,31 @@ void Examination::advance(Watched& w, double stop, bool in_frames) {
     w.world().advance_to(stop);
 }
 
-void Examination::expect_same(Watched& w, std::size_t stop) {
-    const Shown got = shown(w);
-    const Shown& expected = plain_[stop];
-    if (got == expected) return;
-    const char* what = got.hash != expected.hash       ? "state"
-                       : got.balls != expected.balls   ? "number of ball collisions"
-                       : got.walls != expected.walls   ? "number of wall collisions"
-                       : got.events != expected.events ? "list of collisions"
-                       : got.virial != expected.virial ? "virial"
-                                                       : "energy";
-    throw Failure{"same bits", fmt::format("{}: another {} at time {}", w.name(), what, stops_[stop])};
+void Examination::expect_same(Watched& w, std::size_t stop, bool is_edited) {
+    if (const std::string what = difference(shown(w), plain_[stop][is_edited ? 1 : 0]); !what.empty())
+        throw Failure{"same bits", fmt::format("{}: another {} at time {}{}", w.name(), what, stops_[stop],
+                                               is_edited ? ", after its edits" : "")};
 }
 
 void Examination::run_other(const std::string& kind, const WorldOptions& options, bool in_frames,
                             bool resumes) {
     const std::string name = fmt::format("{} (threads {}, domains {}, halo {}, cell size {})", kind,
                                          options.threads, options.domains, options.halo, options.cell_size);
-    std::size_t next = 0;
     std::optional<Watched> watched;
     if (resumes && snapshot_) {
         watched.emplace(name, World(scene_, options, *snapshot_));
         watched->set_seen(seen_at_snapshot_);
-        next = snapshot_stop_;
     } else {
         watched.emplace(name, World(scene_, options));
     }
-    for (; next < reached_; ++next) {
-        advance(*watched, stops_[next], in_frames);
-        check_state(*watched);
-        expect_same(*watched, next);
+    for (std::size_t k = resumes ? snapshot_stop_ : 0; k < reached_; ++k) {
+        if (!resumes || is_before_edits(k)) {
+            advance(*watched, stops_[k], in_frames);
+            check_state(*watched);
+            expect_same(*watched, k, false);
+            repeat_edits(*watched, k);
+        }
+        expect_same(*watched, k, true);
     }
 }
 

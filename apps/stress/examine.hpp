@@ -4,16 +4,18 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <carom/core/scene.hpp>
 
 namespace carom::stress {
 
-/// A scene whose fills are placed, and the seed of how it is cut, framed and resumed.
+/// A scene whose fills are placed, and the seed of how it is edited, cut, framed and resumed.
 struct Trial {
     Scene scene;
     std::uint64_t seed = 1;
     int threads = 2;
+    std::vector<std::uint32_t> edits = {};  ///< numbers of those that take place, see edits.hpp
 };
 
 struct Verdict {

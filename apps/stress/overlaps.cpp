@@ -63,6 +63,7 @@ std::string find_misplaced(const Scene& scene, const World& world, double events
     for (std::size_t i = 0; i < positions.size(); ++i) {
         for (std::size_t j = i + 1; j < positions.size(); ++j) {
             if (scene.balls[i].is_static && scene.balls[j].is_static) continue;
+            if (!may_collide(scene.balls[i].filter, scene.balls[j].filter)) continue;
             if (const double d = depth(scene, positions, i, j); !(d <= allowed))
                 return fmt::format("balls {} and {} overlap by {:.3g} at time {}", i, j, d, world.time());
         }

@@ -8,9 +8,9 @@
 
 namespace carom::stress {
 
-/// One line on the first ball that is where it may not be, in a world of `scene` where no ball has had more than `events`
-/// collisions and renewals of the field; empty where all is well. Looks at every pair, of at most some hundred
-/// balls.
+/// One line on the first ball that is where it may not be, in a world of `scene` where no ball has had more
+/// than `events` collisions and renewals of the field; empty where all is well. Looks at every pair, of at
+/// most some hundred balls.
 [[nodiscard]] std::string find_misplaced(const Scene& scene, const World& world, double events);
 
 }  // namespace carom::stress

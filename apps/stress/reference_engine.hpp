@@ -14,6 +14,7 @@
 #include <carom/core/disc_time.hpp>
 #include <carom/core/response.hpp>
 #include <carom/core/scene.hpp>
+#include <carom/core/snapshot.hpp>
 #include <carom/core/wall_time.hpp>
 
 #include "physics.hpp"
@@ -32,11 +33,14 @@ struct BruteForceRules {
     int images = 1;  ///< periods beyond the nearest image, to either side, in which a partner is looked for
 };
 
-/// The rules by which World runs a scene whose fills are placed.
-inline BruteForceRules rules_of(const Scene& scene) {
-    const Physics p = derive_physics(scene, scene.balls);
+inline BruteForceRules rules_of(const Physics& p) {
     return {p.domain,   p.gravity, p.restitution_rule, p.contact_time, p.rest_time, p.speed_factor, p.clock,
             p.in_float, 1};
+}
+
+/// The rules by which World runs a scene whose fills are placed.
+inline BruteForceRules rules_of(const Scene& scene) {
+    return rules_of(derive_physics(scene, scene.balls));
 }
 
 struct BruteForceEvent {
@@ -56,9 +60,22 @@ class BruteForce {
             b.acceleration =
                 balls[i].is_static ? Vec2(Vec2::Zero()) : Vec2(rules.gravity + balls[i].acceleration);
         }
-        table_.resize(bodies_.size() * partners_);
-        row_best_.resize(bodies_.size());
-        for (std::size_t i = 0; i < bodies_.size(); ++i) predict_row(i);
+        predict_all();
+    }
+    /// From where a world was: anchors as the snapshot has them.
+    BruteForce(const BruteForceRules& rules, const std::vector<Ball>& balls, const std::vector<Wall>& walls,
+               const Snapshot& from)
+        : BruteForce(rules, balls, walls) {
+        std::size_t moving = 0;
+        for (Body& b : bodies_) {
+            if (b.ball.is_static) continue;
+            b.ball.position = from.anchors[moving].position;
+            b.ball.velocity = from.anchors[moving].velocity;
+            b.anchor = from.anchors[moving].time;
+            if (!from.last_collisions.empty()) b.last_collision = from.last_collisions[moving];
+            ++moving;
+        }
+        predict_all();
     }
 
     /// Resolves the next event and says which it was.
@@ -203,6 +220,12 @@ class BruteForce {
         const double sign = upper ? -1 : 1;
         const double t = side_time_of_impact(gap, sign * b.ball.velocity[axis], sign * b.acceleration[axis]);
         return {rules_.clock.after(b.anchor, t), 0, 0, WallFeature::kFace};
+    }
+
+    void predict_all() {
+        table_.assign(bodies_.size() * partners_, Entry());
+        row_best_.assign(bodies_.size(), 0);
+        for (std::size_t i = 0; i < bodies_.size(); ++i) predict_row(i);
     }
 
     void predict_row(std::size_t i) {

@@ -3,6 +3,7 @@
 #include "scenes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -149,6 +150,18 @@ void draw_balls(Draw& draw, Scene& s, std::size_t count) {
     }
 }
 
+/// Three kinds, of which some meet only some; and balls wherever those that they pass through leave room.
+void draw_filters(Draw& draw, Scene& s, std::size_t count) {
+    if (!draw.one_in(5)) return;
+    std::array<CollisionFilter, 3> kinds;
+    for (CollisionFilter& kind : kinds) kind = draw.filter();
+    const auto share = [&](auto& body) { body.filter = kinds[draw.below(kinds.size())]; };
+    if (draw.one_in(2)) add_bodies(draw, s, 1 + count / 2, 0.6, false);
+    std::ranges::for_each(s.balls, share);
+    if (draw.one_in(2)) std::ranges::for_each(s.walls, share);
+    if (!s.allows_overlap) drop_overlapping(s);
+}
+
 void draw_velocities(Draw& draw, Scene& s) {
     const double at_rest = draw.one_in(3) ? draw.uniform(0, 1) : 0;
     const Vec2 drift = draw.one_in(5) ? draw.direction(draw.decades(-1, 2)) : Vec2(Vec2::Zero());
@@ -207,6 +220,26 @@ void draw_forces(Draw& draw, Scene& s) {
     s.field_interval = draw.decades(-2, -0.5);
 }
 
+/// Steps of time, of travel, or both. The end comes early where balls are fast: the way of all steps is
+/// bounded.
+void draw_method(Draw& draw, Scene& s) {
+    if (!draw.one_in(6)) return;
+    s.method = Method::kEmpirical;
+    const std::size_t kind = draw.below(3);
+    if (kind != 0) s.step = draw.decades(-2.5, -0.5);
+    if (kind != 1) s.max_travel = draw.decades(-2, -0.3);
+    constexpr double kSteps = 500;
+    double fastest = 1;
+    double smallest = 1;
+    for (const Ball& b : s.balls) {
+        fastest = std::max(fastest, std::sqrt(length_squared<double>(b.velocity)));
+        smallest = std::min(smallest, b.radius);
+    }
+    if (draw.one_in(2)) s.tolerance = smallest * draw.decades(-10, -2);
+    if (s.max_travel) s.until = std::min(s.until, kSteps * *s.max_travel * smallest / fastest);
+    if (s.step) s.until = std::min(s.until, kSteps * *s.step);
+}
+
 /// Far from the origin, in other units, in float.
 void draw_units(Draw& draw, Scene& s) {
     const bool in_float = draw.one_in(6);
@@ -236,6 +269,8 @@ void draw_units(Draw& draw, Scene& s) {
         b.mass *= mass;
     }
     s.until *= time;
+    if (s.step) *s.step *= time;
+    if (s.tolerance) *s.tolerance *= length;
     if (in_float) s.precision = Precision::kFloat;
 }
 
@@ -278,11 +313,13 @@ Scene draw_scene(std::uint64_t seed, std::size_t most_balls) {
     const auto count = static_cast<std::size_t>(draw.decades(0.3, std::log10(double(most_balls))));
     draw_domain(draw, s, std::max<std::size_t>(count, 1));
     draw_balls(draw, s, std::max<std::size_t>(count, 1));
+    draw_filters(draw, s, count);
     draw_velocities(draw, s);
     draw_masses(draw, s);
     draw_losses(draw, s);
     draw_forces(draw, s);
     s.until = draw.decades(-0.5, 1.2);
+    draw_method(draw, s);
     draw_units(draw, s);
     mend(s);
     return s;

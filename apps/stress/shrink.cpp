@@ -15,10 +15,11 @@ class Shrinker {
     void run() {
         do {
             changed_ = false;
+            remove_parts([](Trial& t) -> auto& { return t.edits; });
             end_earlier();
-            remove_parts(&Scene::balls);
-            remove_parts(&Scene::walls);
-            remove_parts(&Scene::attractors);
+            remove_parts([](Trial& t) -> auto& { return t.scene.balls; });
+            remove_parts([](Trial& t) -> auto& { return t.scene.walls; });
+            remove_parts([](Trial& t) -> auto& { return t.scene.attractors; });
             forget_features();
             simplify_balls();
         } while (changed_ && may_go_on_());
@@ -27,9 +28,12 @@ class Shrinker {
  private:
     /// Keeps the change where the scene still fails.
     bool try_change(const std::function<void(Scene&)>& change) {
+        return try_trial([&change](Trial& t) { change(t.scene); });
+    }
+    bool try_trial(const std::function<void(Trial&)>& change) {
         if (!may_go_on_()) return false;
         Trial smaller = trial_;
-        change(smaller.scene);
+        change(smaller);
         const Verdict verdict = examine(smaller);
         if (verdict.check != verdict_.check) return false;
         trial_ = std::move(smaller);
@@ -48,12 +52,12 @@ class Shrinker {
 
     /// Halves, quarters and so on of a list, as long as taking one out leaves the failure (delta debugging,
     /// Zeller and Hildebrandt 2002).
-    template <class Part>
-    void remove_parts(std::vector<Part> Scene::* list) {
-        for (std::size_t piece = (trial_.scene.*list).size(); piece > 0; piece /= 2) {
-            for (std::size_t first = 0; first < (trial_.scene.*list).size();) {
-                const bool removed = try_change([&](Scene& s) {
-                    std::vector<Part>& parts = s.*list;
+    template <class ListOf>
+    void remove_parts(ListOf list) {
+        for (std::size_t piece = list(trial_).size(); piece > 0; piece /= 2) {
+            for (std::size_t first = 0; first < list(trial_).size();) {
+                const bool removed = try_trial([&](Trial& t) {
+                    auto& parts = list(t);
                     const auto from = parts.begin() + static_cast<std::ptrdiff_t>(first);
                     parts.erase(from,
                                 from + static_cast<std::ptrdiff_t>(std::min(piece, parts.size() - first)));
@@ -74,6 +78,10 @@ class Shrinker {
         reset(&Scene::contact_time);
         reset(&Scene::speed_factor);
         reset(&Scene::precision);
+        reset(&Scene::method);
+        reset(&Scene::step);
+        reset(&Scene::max_travel);
+        reset(&Scene::tolerance);
         reset(&Scene::allows_overlap);
         reset(&Scene::field_interval);
         if (!trial_.scene.domain) return;
@@ -103,6 +111,7 @@ class Shrinker {
         reset(&Ball::mass);
         reset(&Ball::is_static);
         reset(&Ball::velocity);
+        reset(&Ball::filter);
     }
 
     static constexpr std::size_t kFewBalls = 20;

@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include <carom/io/atomic_file.hpp>
+#include <carom/io/read_file.hpp>
 
 #include "checkpoint_layout.hpp"
 #include "crc64.hpp"
 #include "json_value.hpp"
 #include "little_endian.hpp"
-#include "read_file.hpp"
 
 namespace carom {
 namespace {

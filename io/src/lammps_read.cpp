@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include <carom/io/lammps.hpp>
+#include <carom/io/read_file.hpp>
 
 #include "ball_line.hpp"
 #include "json_value.hpp"
-#include "read_file.hpp"
 #include "xyz_frames.hpp"
 
 namespace carom {

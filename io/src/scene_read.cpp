@@ -9,11 +9,11 @@
 
 #include <carom/io/atomic_file.hpp>
 #include <carom/io/lammps.hpp>
+#include <carom/io/read_file.hpp>
 #include <carom/io/scene_file.hpp>
 
 #include "json_stream.hpp"
 #include "json_value.hpp"
-#include "read_file.hpp"
 
 namespace carom {
 namespace {

@@ -125,6 +125,9 @@ std::string_view LineReader::next() {
     text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     ++line_number_;
+    constexpr std::size_t kLongest = std::size_t{1} << 20;  // no line of balls comes near it
+    if (line.size() > kLongest)
+        fail(fmt::format("a line may have {} characters, this one has {}", kLongest, line.size()));
     return line;
 }
 

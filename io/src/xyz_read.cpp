@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <carom/io/read_file.hpp>
 #include <carom/io/xyz.hpp>
 
 #include "ball_line.hpp"
 #include "json_value.hpp"
-#include "read_file.hpp"
 #include "xyz_frames.hpp"
 
 namespace carom {

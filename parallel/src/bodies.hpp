@@ -13,6 +13,7 @@
 #include <carom/parallel/kernel.hpp>
 
 #include "ball_record.hpp"
+#include "fault.hpp"
 #include "physics.hpp"
 
 namespace carom {
@@ -92,7 +93,9 @@ struct Bodies {
     }
     /// Whether a ball collides with a body of any kind, by its number; with the domain's sides all do.
     [[nodiscard]] bool may_meet(std::uint32_t id, std::uint32_t partner) const {
-        return filters.empty() || partner >= first_side() || may_collide(filters[id], filters[partner]);
+        if (filters.empty() || partner >= first_side()) return true;
+        if (is_active(Fault::kOneMask)) return (filters[id].category & filters[partner].mask) != 0;
+        return may_collide(filters[id], filters[partner]);
     }
     [[nodiscard]] bool fixes(std::uint32_t id) const { return !is_static.empty() && is_static[id] != 0; }
     [[nodiscard]] Vec2 own_acceleration_of(std::uint32_t id) const {

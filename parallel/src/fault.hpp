@@ -16,6 +16,8 @@ enum class Fault : std::uint8_t {
     kUnseenLarge,    ///< small balls do not see those that are larger than a cell
     kUnlikeCopies,   ///< domains do not compare what their copies did
     kForgottenHit,   ///< a restored ball does not know when it collided last
+    kOneMask,        ///< of two bodies only the first one's category is looked at
+    kOldFlights,     ///< a wall that is added is hit by flights where it did not stand yet
 };
 
 #ifdef CAROM_FAULTS

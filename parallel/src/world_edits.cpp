@@ -6,6 +6,7 @@
 
 #include <carom/broadphase/overlap.hpp>
 
+#include "fault.hpp"
 #include "hash.hpp"
 #include "physics.hpp"
 #include "scene_hash.hpp"
@@ -228,13 +229,17 @@ Added World::State::apply(const Edits& edits) {
     if (edits.attractors) rules.attractors = *edits.attractors;
     if (edits.gravity) rules.gravity = *edits.gravity;
     check_edited(balls, walls, edits, rules);
-    const std::vector<Ball> now_there = bodies_of(balls);
     if (!rules.allows_overlap) {
         Selection selected{{}, {}, ids_of(balls), ids_of(walls)};
         for (const Member<Ball>& m : balls) selected.balls.push_back(m.is_placed ? 1 : 0);
         for (const Member<Wall>& m : walls) selected.walls.push_back(m.is_placed ? 1 : 0);
-        check_overlaps(now_there, rules, selected);
+        check_overlaps(bodies_of(balls), rules, selected);
     }
+    // As a scene's are: what is static gets no other chance.
+    if (rules.precision == Precision::kFloat)
+        for (Member<Ball>& m : balls)
+            if (m.is_placed) round_to_float(m.body);
+    const std::vector<Ball> now_there = bodies_of(balls);
 
     const Physics physics = physics_of(bodies().physics, rules, now_there);
     auto next = std::make_shared<Cast>(rules, physics, now_there, wanted.cell_size);
@@ -249,8 +254,9 @@ Added World::State::apply(const Edits& edits) {
     // What is hit where it stands is hit by flights that start before it stood there, and other forces bend
     // all flights: then all balls start anew.
     const auto is_new_obstacle = [](const Member<Ball>& m) { return m.is_placed && m.body.is_static; };
-    const bool all_start_anew = edits.attractors || edits.gravity || !edits.added_walls.empty() ||
-                                std::ranges::any_of(balls, is_new_obstacle);
+    const bool walls_are_new = !edits.added_walls.empty() && !is_active(Fault::kOldFlights);
+    const bool all_start_anew =
+        edits.attractors || edits.gravity || walls_are_new || std::ranges::any_of(balls, is_new_obstacle);
     Carrier carrier(snapshot(), bodies(), next->bodies, now);
     for (std::uint32_t i = 0; i < balls.size(); ++i) {
         const Member<Ball>& m = balls[i];

@@ -21,12 +21,7 @@ std::vector<Ball> place_checked(const Scene& scene) {
     check(scene);
     std::vector<Ball> balls = place_balls(scene);
     if (!scene.allows_overlap) check_overlaps(balls, scene);
-    if (scene.precision == Precision::kFloat) {
-        for (Ball& b : balls) {
-            b.position = rounded_to_float(b.position);
-            b.velocity = rounded_to_float(b.velocity);
-        }
-    }
+    if (scene.precision == Precision::kFloat) std::ranges::for_each(balls, round_to_float);
     return balls;
 }
 
@@ -71,6 +66,11 @@ Scene rules_of(const Scene& scene) {
 }
 
 }  // namespace
+
+void round_to_float(Ball& ball) {
+    ball.position = rounded_to_float(ball.position);
+    ball.velocity = rounded_to_float(ball.velocity);
+}
 
 std::string shown(double number) {
     std::ostringstream text;

@@ -54,6 +54,9 @@ struct CompensatedSum {
     [[nodiscard]] double value() const { return sum + lost; }
 };
 
+/// As a ball's state is held where that is in float.
+void round_to_float(Ball& ball);
+
 /// A number as errors show it.
 [[nodiscard]] std::string shown(double number);
 

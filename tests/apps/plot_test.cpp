@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <numbers>
 #include <random>
 #include <string>
@@ -187,12 +188,15 @@ TEST(PlotCommand, RunsASceneDrawsTablesAndNamesMistakes) {
     EXPECT_THAT(folder.read("s.svg"), testing::StartsWith("<?xml"));
     expect_one_error(run({"bad.csv", "--out", "x.svg"}), 1, "bad.csv: line 3 has 1 cells, the header 2");
     expect_one_error(run({"words.csv", "--out", "x.svg"}), 1, "words.csv: has no numbers to plot");
+    std::filesystem::create_symlink("/dev/zero", folder.path("zero.csv"));
+    expect_one_error(run({"zero.csv", "--out", "x.svg"}), 1, "zero.csv: cannot be read: is a device");
     expect_one_error(run({"t.csv", "--columns", "c", "--out", "x.svg"}), 1, "has no column 'c' (has: a, b)");
     expect_one_error(run({"none.csv", "--out", "x.svg"}), 1, "none.csv: cannot be read");
     expect_one_error(run({"t.csv", "s.json", "--out", "x.svg"}), 2, "one scene, or one or more tables");
     expect_one_error(run({"t.csv", "--out", "t.csv"}), 2, "unknown picture format '.csv'");
     expect_one_error(run({"s.json", "--columns", "a", "--out", "x.svg"}), 2, "belongs to tables");
-    EXPECT_THAT(folder.names(), ElementsAre("bad.csv", "s.json", "s.svg", "t.csv", "t.png", "words.csv"));
+    EXPECT_THAT(folder.names(),
+                ElementsAre("bad.csv", "s.json", "s.svg", "t.csv", "t.png", "words.csv", "zero.csv"));
 }
 
 }  // namespace

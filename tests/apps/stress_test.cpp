@@ -54,11 +54,30 @@ TEST(StressCommand, ExaminesAGivenScene) {
     EXPECT_THAT(result.out, HasSubstr("stress: 1 scene, "));
 }
 
+// Edits are drawn from the seed: what a failure prints as --edits repeats it.
+TEST(StressCommand, EditsAGivenScene) {
+    const Folder folder;
+    const std::string scene =
+        folder.write("gas.json",
+                     R"({"domain": {"min": [0, 0], "max": [12, 12], "boundary": ["periodic", "wall"]},
+            "fill": [{"count": 40, "packing_fraction": 0.2, "temperature": 1}], "until": 6})");
+    const auto run = [&](const std::string& edits) {
+        const Result result = folder.run({"stress", scene, "--seed", "4", "--edits", edits});
+        EXPECT_EQ(result.status, 0) << result.err;
+        return result.out;
+    };
+    EXPECT_EQ(run("all"), run("0,1,2,3,4,5,6,7,8,9,10,11"));
+    EXPECT_NE(run("all"), run("none"));
+    EXPECT_EQ(run("none"), folder.run({"stress", scene, "--seed", "4"}).out);
+}
+
 TEST(StressCommand, NamesWhatIsWrong) {
     const Folder folder;
     expect_one_error(folder.run({"stress", "--balls", "1"}), 2, "--balls");
     expect_one_error(folder.run({"stress", "--minutes", "0"}), 2, "--minutes");
     expect_one_error(folder.run({"stress", "--seconds", "1", "--scenes", "2"}), 2, "--seconds");
+    expect_one_error(folder.run({"stress", "x.json", "--edits", "1,12"}), 2, "some of 0 to 11");
+    expect_one_error(folder.run({"stress", "--edits", "all"}), 2, "--edits");
     expect_one_error(folder.run({"stress", "missing.json"}), 1, "missing.json");
     expect_one_error(folder.run({"stress", "--scenes", "1", "--out", "/dev/null/x"}), 1, "/dev/null/x");
 }

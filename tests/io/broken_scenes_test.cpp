@@ -68,6 +68,7 @@ const std::map<std::string, std::string> messages = {
     {"key_unlike_all",
      R"(temperature_of_the_sun: unknown key, known are name, domain, gravity, restitution_rule, contact_time, speed_factor, balls, fill, balls_file, walls, attractors, field_interval, sensors, precision, allow_overlap, method, step, tolerance, max_travel, until, description, $schema)"},
     {"list", R"(a scene must be a JSON object, is an array)"},
+    {"mask_too_large", R"(balls[0].mask: must be below 2^32, is 4294967296)"},
     {"no_balls", R"(balls: some balls are required: give balls, fill or balls_file)"},
     {"no_until", R"(until: is required: the time at which the simulation ends)"},
     {"rule_unknown",

@@ -177,6 +177,23 @@ TEST(Edits, AreRefusedWhole) {
     EXPECT_THROW(world.set_user_data(60, 1), std::out_of_range);
 }
 
+// In float every place is a float, that of a static ball too, which no event rounds.
+TEST(Edits, AddedStaticBallIsHeldAsASceneHasIt) {
+    const Ball pin{.position = {5.1, 0.1}, .is_static = true};
+    Scene scene = lone({0, 0}, {1, 0});
+    scene.precision = Precision::kFloat;
+    Scene whole = scene;
+    whole.balls.push_back(pin);
+    World from_the_start(whole);
+    World edited(scene);
+    EXPECT_EQ(edited.add_ball({.position = {5.1, 7.1}, .is_static = true}), 1);
+    edited.set_position(1, pin.position);
+    EXPECT_EQ(edited.ball(1).position, rounded_to_float(pin.position));
+    from_the_start.advance_to(20);
+    edited.advance_to(20);
+    EXPECT_EQ(edited.state_hash(), from_the_start.state_hash());
+}
+
 TEST(Edits, UserDataStaysWithItsBall) {
     World world(gas(3, {.count = 20, .packing = 0.1}));
     EXPECT_EQ(world.user_data(4), 0);
