@@ -24,8 +24,14 @@ class EditsDraw {
  public:
     EditsDraw(Draw& draw, const Scene& scene, const World& world)
         : draw_(draw), scene_(scene), world_(world), ids_(world.ball_ids()), box_(world.domain().box) {
-        for (const Ball& b : world.balls())
-            speed_ = std::max(speed_, std::sqrt(length_squared<double>(b.velocity)));
+        // No faster than the scene began: batch by batch, what grows with what is there has no end.
+        const auto fastest = [](const std::vector<Ball>& balls) {
+            double speed = 0;
+            for (const Ball& b : balls)
+                speed = std::max(speed, std::sqrt(length_squared<double>(b.velocity)));
+            return speed;
+        };
+        speed_ = std::min(fastest(world.balls()), fastest(scene.balls));
         if (!(speed_ > 0)) speed_ = (box_.max - box_.min).maxCoeff() / scene.until;
     }
 
@@ -113,8 +119,10 @@ class EditsDraw {
         edits.attractors->push_back({place(), strength, softening});
     }
 
-    /// Turns the fastest within some ten radii.
-    [[nodiscard]] double pull(double radius) const { return speed_ * speed_ / (20 * radius); }
+    /// Turns the fastest within some ten radii, unless it would make them several times as fast by the end.
+    [[nodiscard]] double pull(double radius) const {
+        return speed_ * std::min(speed_ / (20 * radius), 4 / scene_.until);
+    }
 
     Draw& draw_;
     const Scene& scene_;

@@ -235,6 +235,8 @@ void draw_method(Draw& draw, Scene& s) {
         fastest = std::max(fastest, std::sqrt(length_squared<double>(b.velocity)));
         smallest = std::min(smallest, b.radius);
     }
+    // A step looks along the whole way that a ball has gone in it.
+    if (s.step) s.step = std::min(*s.step, 10 * smallest / fastest);
     if (draw.one_in(2)) s.tolerance = smallest * draw.decades(-10, -2);
     if (s.max_travel) s.until = std::min(s.until, kSteps * *s.max_travel * smallest / fastest);
     if (s.step) s.until = std::min(s.until, kSteps * *s.step);
