@@ -66,7 +66,7 @@ class Examination {
 
     /// What a world shows at a stop.
     struct Shown {
-        std::uint64_t hash, events, balls, walls, steps, missed;
+        std::uint64_t hash, events, sensings, balls, walls, steps, missed;
         double virial, energy;
     };
     /// What of it is another; empty where nothing is.
@@ -97,9 +97,15 @@ class Examination {
 
 Examination::Shown Examination::shown(const Watched& w) {
     const Counts counts = w.world().counts();
-    return {w.world().state_hash(), w.seen().events.value,    counts.ball_collisions,
-            counts.wall_collisions, counts.steps.value_or(0), counts.missed_collisions.value_or(0),
-            w.world().virial(),     w.world().energy()};
+    return {w.world().state_hash(),
+            w.seen().events.value,
+            w.seen().sensings.value,
+            counts.ball_collisions,
+            counts.wall_collisions,
+            counts.steps.value_or(0),
+            counts.missed_collisions.value_or(0),
+            w.world().virial(),
+            w.world().energy()};
 }
 
 std::string Examination::difference(const Shown& got, const Shown& expected) {

@@ -307,6 +307,25 @@ void mend(Scene& s) {
     if (in_float) s.balls.back().velocity = rounded_to_float(lone.velocity);
 }
 
+/// Points, gates and triangles of some ball's size and place, across a periodic side at times.
+void draw_sensors(Draw& draw, Scene& s) {
+    if (s.method != Method::kEvent || !draw.one_in(3)) return;
+    const std::size_t count = 1 + draw.below(4);
+    for (std::size_t k = 0; k < count; ++k) {
+        const Ball& ball = s.balls[draw.below(s.balls.size())];
+        const double size = ball.radius * draw.decades(-1, 2);
+        Sensor sensor;
+        const Vec2 out = draw.direction(size);
+        const std::size_t corners = 1 + draw.below(3);
+        sensor.corners.push_back(ball.position + out);
+        if (corners > 1) sensor.corners.push_back(ball.position - out);
+        if (corners > 2) sensor.corners.emplace_back(ball.position + Vec2(-out.y(), out.x()));
+        if (draw.one_in(2)) sensor.radius = size * draw.uniform(0, 1);
+        if (draw.one_in(4)) sensor.filter = draw.filter();
+        s.sensors.push_back(sensor);
+    }
+}
+
 }  // namespace
 
 Scene draw_scene(std::uint64_t seed, std::size_t most_balls) {
@@ -324,6 +343,7 @@ Scene draw_scene(std::uint64_t seed, std::size_t most_balls) {
     draw_method(draw, s);
     draw_units(draw, s);
     mend(s);
+    draw_sensors(draw, s);
     return s;
 }
 

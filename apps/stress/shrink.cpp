@@ -20,6 +20,7 @@ class Shrinker {
             remove_parts([](Trial& t) -> auto& { return t.scene.balls; });
             remove_parts([](Trial& t) -> auto& { return t.scene.walls; });
             remove_parts([](Trial& t) -> auto& { return t.scene.attractors; });
+            remove_parts([](Trial& t) -> auto& { return t.scene.sensors; });
             forget_features();
             simplify_balls();
         } while (changed_ && may_go_on_());

@@ -1,4 +1,4 @@
-// A world, and what its collisions until now come to.
+// A world, and what its collisions and sensors until now come to.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@ namespace carom::stress {
 
 struct Seen {
     Hash events;
+    Hash sensings;
     std::vector<std::uint32_t> by_ball;  ///< how many of them each ball had, by id
 };
 
@@ -24,6 +25,11 @@ class Watched {
     Watched(const std::string& name, World world) : name_(name), world_(std::move(world)) {
         seen_ = std::make_unique<Seen>();
         listen(nullptr);
+        if (world_.sensors().empty()) return;
+        world_.on_sensing([seen = seen_.get()](const Sensing& s) {
+            seen->sensings << s.time << std::uint64_t{s.sensor} << std::uint64_t{s.ball}
+                           << std::uint64_t{s.enters} << s.position << s.velocity;
+        });
     }
     /// Hands each collision to `listener` besides.
     void listen(std::function<void(const Collision&)> listener) {

@@ -254,11 +254,11 @@ void EmpiricalEngine::save(const Time&, Snapshot&) const {
     throw SnapshotError("the empirical method keeps no snapshots");
 }
 
-void EmpiricalEngine::visit_flights(const Time&, const Time&, const VisitFlights&) const {
+void EmpiricalEngine::visit_flights(const Stop&, const Time&, const VisitFlights&) const {
     throw std::logic_error("the empirical method knows no flights from event to event");
 }
 
-void EmpiricalEngine::follow(std::function<void(const Time&)> follower) {
+void EmpiricalEngine::follow(Follower follower) {
     if (follower) visit_flights({}, {}, {});
 }
 

@@ -42,8 +42,8 @@ class EmpiricalEngine final : public Engine {
     /// Throws SnapshotError: what is kept between two steps is in no snapshot yet.
     void save(const Time& t, Snapshot& snapshot) const override;
     void audit(std::vector<Violation>& found) const override;
-    void visit_flights(const Time&, const Time&, const VisitFlights&) const override;
-    void follow(std::function<void(const Time&)> follower) override;
+    void visit_flights(const Stop&, const Time&, const VisitFlights&) const override;
+    void follow(Follower follower) override;
     void listen(std::function<void(const Collision&)> listener) override { listener_ = std::move(listener); }
 
  private:

@@ -43,7 +43,7 @@ class SerialEngine final : public Engine {
     void advance_to(const Time& end, const Time&) override {
         loop_->advance_to(end, true);
         counts_.events = loop_->events;
-        if (follower_) tell_follower(end);
+        if (follower_) tell_follower({end});
     }
     void renew_field(const Time& t) override {
         loop_->renew_field(t);
@@ -67,7 +67,7 @@ class SerialEngine final : public Engine {
     }
     std::uint32_t most_events() const override { return Engine::most_events(loop_->records()); }
     void audit(std::vector<Violation>& found) const override { loop_->audit(found); }
-    void visit_flights(const Time& from, const Time& to, const VisitFlights& visit) const override {
+    void visit_flights(const Stop& from, const Time& to, const VisitFlights& visit) const override {
         executor_.for_ranges(loop_->size(), 4096, [&](std::size_t first, std::size_t last) {
             FlightList flights(bodies_);
             for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
@@ -75,11 +75,11 @@ class SerialEngine final : public Engine {
                                                loop_->overwritten, loop_->last_overwritten(i), from, to));
         });
     }
-    void follow(std::function<void(const Time&)> follower) override {
+    void follow(Follower follower) override {
         follower_ = std::move(follower);
         loop_->keeps_anchors = static_cast<bool>(follower_);
         loop_->on_part = nullptr;
-        if (follower_) loop_->on_part = [this](const Time& t) { tell_follower(t); };
+        if (follower_) loop_->on_part = [this](const Time& t) { tell_follower({t, false}); };
         loop_->forget_anchors();
     }
     void listen(std::function<void(const Collision&)> listener) override {
@@ -88,14 +88,14 @@ class SerialEngine final : public Engine {
     }
 
  private:
-    void tell_follower(const Time& t) {
-        follower_(t);
+    void tell_follower(const Stop& stop) {
+        follower_(stop);
         loop_->forget_anchors();
     }
 
     const Executor& executor_;
     std::unique_ptr<EventLoop> loop_;
-    std::function<void(const Time&)> follower_;
+    Follower follower_;
 };
 
 }  // namespace
@@ -116,11 +116,13 @@ void Engine::count(const CollisionNote& note) {
 
 std::span<const Flight> FlightList::of(const Anchor& last, const Vec2& acceleration,
                                        std::span<const OverwrittenAnchor> overwritten, std::uint32_t previous,
-                                       const Time& from, const Time& to) {
+                                       const Stop& from, const Time& to) {
     flights_.clear();
     add(last, acceleration, to);
     for (std::uint32_t k = previous; k != kNowhere; k = overwritten[k].previous) {
-        if (!flights_.empty() && flights_.back().anchor.time <= from) break;
+        const bool is_seen = !flights_.empty() && (from.is_whole ? flights_.back().anchor.time <= from.time
+                                                                 : flights_.back().anchor.time < from.time);
+        if (is_seen) break;
         const OverwrittenAnchor& o = overwritten[k];
         add({o.x, o.y, o.vx, o.vy, o.time, 0, 0, {}}, acceleration, to);
     }

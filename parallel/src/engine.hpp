@@ -25,6 +25,13 @@ struct Flight {
     Time end;
 };
 
+/// How far a look has gone: to a time, with or without what happens at that very instant. A flight that ends
+/// there is seen again where it is without.
+struct Stop {
+    Time time;
+    bool is_whole = true;
+};
+
 class Engine {
  public:
     virtual ~Engine() = default;
@@ -46,12 +53,13 @@ class Engine {
     virtual void audit(std::vector<Violation>& found) const = 0;
     /// Calls visit(id, flights) for every moving ball with its flights that end after `from`, in their order,
     /// the last one cut off at `to`, up to which all has been advanced: side by side for the balls. `from`
-    /// is `to`, or not before the time that the follower was told last.
+    /// is `to`, or not before the stop that the follower was told last.
     using VisitFlights = std::function<void(std::uint32_t, std::span<const Flight>)>;
-    virtual void visit_flights(const Time& from, const Time& to, const VisitFlights& visit) const = 0;
-    /// From the time advanced to last on `follower` is told the times up to which flights can be visited,
-    /// before what lies further back is forgotten; an empty function turns it off.
-    virtual void follow(std::function<void(const Time&)> follower) = 0;
+    virtual void visit_flights(const Stop& from, const Time& to, const VisitFlights& visit) const = 0;
+    /// From the time advanced to last on `follower` is told up to where flights can be visited, before what
+    /// lies further back is forgotten; an empty function turns it off.
+    using Follower = std::function<void(const Stop&)>;
+    virtual void follow(Follower follower) = 0;
     /// Collisions are told from the time advanced to last on; an empty function turns it off.
     virtual void listen(std::function<void(const Collision&)> listener) = 0;
 
@@ -80,7 +88,7 @@ class FlightList {
     /// Those that end after `from`, and the last one, cut off at `to`. Until the next call.
     std::span<const Flight> of(const Anchor& last, const Vec2& acceleration,
                                std::span<const OverwrittenAnchor> overwritten, std::uint32_t previous,
-                               const Time& from, const Time& to);
+                               const Stop& from, const Time& to);
 
  private:
     void add(const Anchor& anchor, const Vec2& acceleration, const Time& to);

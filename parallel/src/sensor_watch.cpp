@@ -31,9 +31,13 @@ Box box_of_way(const Motion<double>& m, double radius, double from, double to) {
     return {a.cwiseMin(b) - margin, a.cwiseMax(b) + margin};
 }
 
-bool holds(const std::vector<Stretch>& stretches, const Clock& clock, const Time& start, const Time& t) {
+/// Whether the ball is in the sensor at a time, or just before it where that instant is not over.
+bool holds(const std::vector<Stretch>& stretches, const Clock& clock, const Time& start, const Stop& at) {
     return std::ranges::any_of(stretches, [&](const Stretch& s) {
-        return (s.from == 0 || clock.after(start, s.from) <= t) && clock.after(start, s.to) > t;
+        const Time from = clock.after(start, s.from);
+        const Time to = clock.after(start, s.to);
+        return at.is_whole ? (s.from == 0 || from <= at.time) && to > at.time
+                           : (s.from == 0 || from < at.time) && to >= at.time;
     });
 }
 
@@ -41,14 +45,14 @@ bool holds(const std::vector<Stretch>& stretches, const Clock& clock, const Time
 
 SensorWatch::SensorWatch(const Bodies& bodies, const std::vector<Sensor>& sensors, const Engine& engine,
                          const Time& now)
-    : bodies_(&bodies), sensors_(sensors), inside_(bodies.count), now_(now) {
+    : bodies_(&bodies), sensors_(sensors), inside_(bodies.count), seen_{now} {
     for (const Sensor& sensor : sensors) boxes_.push_back(box_of(sensor));
     tree_ = BoxTree(boxes_);
     const double far = std::numeric_limits<double>::infinity();
     all_ = {{far, far}, {-far, -far}};
     for (const Box& box : boxes_) all_ = {all_.min.cwiseMin(box.min), all_.max.cwiseMax(box.max)};
     std::vector<Change> ignored;
-    look(engine, now, ignored);
+    look(engine, {now}, ignored);
 }
 
 /// Adds what is near the way of a ball that is seen from an image of the sensors, `offset` away.
@@ -72,12 +76,11 @@ void SensorWatch::look_near(std::uint32_t ball, const Flight& flight, const Vec2
     });
 }
 
-/// The sensors that a ball comes to between `from` and the flight's end, or is in.
-std::vector<SensorWatch::Visit> SensorWatch::visits(std::uint32_t ball, const Flight& flight,
-                                                    const Time& from) const {
+/// The sensors that a ball comes to between what was seen last and the flight's end, or is in.
+std::vector<SensorWatch::Visit> SensorWatch::visits(std::uint32_t ball, const Flight& flight) const {
     const Clock& clock = bodies_->physics.clock;
     const Box way = box_of_way(flight.motion, bodies_->radius.of(ball),
-                               clock.difference(std::max(from, flight.anchor.time), flight.anchor.time),
+                               clock.difference(std::max(seen_.time, flight.anchor.time), flight.anchor.time),
                                clock.difference(flight.end, flight.anchor.time));
     std::array<double, 2> first = {0, 0};
     std::array<double, 2> last = {0, 0};
@@ -118,24 +121,28 @@ void SensorWatch::set(std::uint32_t ball, std::uint32_t sensor, bool enters, con
 
 /// What a ball is in at a time follows from the flight's anchor alone, so that it does not matter when it was
 /// looked at last.
-void SensorWatch::follow(std::uint32_t ball, const Flight& flight, std::vector<Change>& changes) {
+void SensorWatch::follow(std::uint32_t ball, const Flight& flight, const Stop& to,
+                         std::vector<Change>& changes) {
     const Clock& clock = bodies_->physics.clock;
     const Time& start = flight.anchor.time;
-    const Time from = std::max(now_, start);
-    const std::vector<Visit> found = visits(ball, flight, now_);
+    const Stop from = start < seen_.time ? seen_ : Stop{start};
+    const std::vector<Visit> found = visits(ball, flight);
     const std::vector<std::uint32_t> before = inside_[ball];
-    const double elapsed = clock.difference(from, start);
+    const double elapsed = clock.difference(from.time, start);
     for (const std::uint32_t k : before) {
         const auto at = std::ranges::find(found, k, &Visit::sensor);
         if (at == found.end() || !holds(at->stretches, clock, start, from))
             set(ball, k, false, flight, elapsed, changes);
     }
+    // A flight that ends with an event is seen to its end.
+    const bool to_the_end = flight.end < to.time || to.is_whole;
     for (const Visit& visit : found) {
         if (!std::ranges::binary_search(before, visit.sensor) && holds(visit.stretches, clock, start, from))
             set(ball, visit.sensor, true, flight, elapsed, changes);
         const auto passes = [&](double t) {
             const Time time = clock.after(start, t);
-            return time > from && time <= flight.end;
+            return (from.is_whole ? time > from.time : time >= from.time) &&
+                   (to_the_end ? time <= flight.end : time < flight.end);
         };
         for (const Stretch& s : visit.stretches) {
             if (s.from > 0 && passes(s.from)) set(ball, visit.sensor, true, flight, s.from, changes);
@@ -144,18 +151,18 @@ void SensorWatch::follow(std::uint32_t ball, const Flight& flight, std::vector<C
     }
 }
 
-void SensorWatch::look(const Engine& engine, const Time& to, std::vector<Change>& changes) {
-    engine.visit_flights(now_, to, [&](std::uint32_t ball, std::span<const Flight> flights) {
+void SensorWatch::look(const Engine& engine, const Stop& to, std::vector<Change>& changes) {
+    engine.visit_flights(seen_, to.time, [&](std::uint32_t ball, std::span<const Flight> flights) {
         std::vector<Change> of_ball;
-        for (const Flight& flight : flights) follow(ball, flight, of_ball);
+        for (const Flight& flight : flights) follow(ball, flight, to, of_ball);
         if (of_ball.empty()) return;
         const std::lock_guard lock(mutex_);
         changes.insert(changes.end(), of_ball.begin(), of_ball.end());
     });
-    now_ = to;
+    seen_ = to;
 }
 
-void SensorWatch::take(const Engine& engine, const Time& to,
+void SensorWatch::take(const Engine& engine, const Stop& to,
                        const std::function<void(const Sensing&)>& tell) {
     std::vector<Change> changes;
     look(engine, to, changes);
@@ -181,14 +188,14 @@ void SensorWatch::go_on_with(const Bodies& bodies, const Engine& engine, const T
             continue;
         }
         for (const std::uint32_t sensor : inside_[i])
-            left.push_back({past.physics.clock.to_seconds(now_), sensor, id, false, before[i].position,
+            left.push_back({past.physics.clock.to_seconds(seen_.time), sensor, id, false, before[i].position,
                             before[i].velocity});
     }
     bodies_ = &bodies;
     inside_ = std::move(then);
-    now_ = now;
+    seen_ = {now};
     for (const Sensing& sensing : left) tell(sensing);
-    take(engine, now, tell);
+    take(engine, {now}, tell);
 }
 
 }  // namespace carom

@@ -24,7 +24,7 @@ class SensorWatch {
 
     /// Tells what has happened since the last time, until `to`, in the order of time; at one instant of the
     /// balls' ids.
-    void take(const Engine& engine, const Time& to, const std::function<void(const Sensing&)>& tell);
+    void take(const Engine& engine, const Stop& to, const std::function<void(const Sensing&)>& tell);
     /// The sensors that each ball is in, by its index.
     [[nodiscard]] const std::vector<std::vector<std::uint32_t>>& inside() const { return inside_; }
     /// Goes on with the same sensors and other bodies at the same time. Those that were left out, whose
@@ -43,13 +43,13 @@ class SensorWatch {
         std::uint32_t rank;  ///< among the ball's changes
         Sensing sensing;
     };
-    [[nodiscard]] std::vector<Visit> visits(std::uint32_t ball, const Flight& flight, const Time& from) const;
+    [[nodiscard]] std::vector<Visit> visits(std::uint32_t ball, const Flight& flight) const;
     void look_near(std::uint32_t ball, const Flight& flight, const Vec2& offset, const Box& way,
                    std::vector<Visit>& found) const;
-    void follow(std::uint32_t ball, const Flight& flight, std::vector<Change>& changes);
+    void follow(std::uint32_t ball, const Flight& flight, const Stop& to, std::vector<Change>& changes);
     void set(std::uint32_t ball, std::uint32_t sensor, bool enters, const Flight& flight, double since,
              std::vector<Change>& changes);
-    void look(const Engine& engine, const Time& to, std::vector<Change>& changes);
+    void look(const Engine& engine, const Stop& to, std::vector<Change>& changes);
 
     const Bodies* bodies_;
     const std::vector<Sensor>& sensors_;
@@ -57,7 +57,7 @@ class SensorWatch {
     Box all_;
     BoxTree tree_;
     std::vector<std::vector<std::uint32_t>> inside_;  // rising
-    Time now_;
+    Stop seen_;
     std::mutex mutex_;
 };
 

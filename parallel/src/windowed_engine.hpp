@@ -42,8 +42,8 @@ class WindowedEngine final : public Engine {
     void save(const Time& t, Snapshot& snapshot) const override;
     [[nodiscard]] std::uint32_t most_events() const override;
     void audit(std::vector<Violation>& found) const override;
-    void visit_flights(const Time& from, const Time& to, const VisitFlights& visit) const override;
-    void follow(std::function<void(const Time&)> follower) override { follower_ = std::move(follower); }
+    void visit_flights(const Stop& from, const Time& to, const VisitFlights& visit) const override;
+    void follow(Follower follower) override { follower_ = std::move(follower); }
     void listen(std::function<void(const Collision&)> listener) override;
     [[nodiscard]] double working_seconds() const override {
         return std::chrono::duration<double>(std::chrono::steady_clock::duration(working_time_.load()))
@@ -100,7 +100,7 @@ class WindowedEngine final : public Engine {
     void skip_quiet_epochs(const Time& until);
     void commit();
     void rewind_to_now();
-    void tell_until(const Time& end);
+    void tell_until(const Stop& end);
     struct Told {
         const CollisionNote* note;
         const Collision* collision;
@@ -131,7 +131,7 @@ class WindowedEngine final : public Engine {
     mutable std::vector<std::unique_ptr<Workshop>> idle_;
     std::vector<DomainState> domains_;
 
-    std::function<void(const Time&)> follower_;
+    Follower follower_;
     Time now_;  // advanced to, as the world sees it
     Time window_start_;
     Time window_end_;                // >= now_

@@ -9,17 +9,17 @@ namespace carom {
 
 void WindowedEngine::advance_to(const Time& end, const Time& horizon) {
     while (!in_window_ || window_end_ < end || (window_end_ == end && !window_is_closed_)) {
-        if (in_window_) tell_until(window_end_);
+        if (in_window_) tell_until({window_end_, window_is_closed_});
         next_window(end, horizon);
     }
-    tell_until(end);
+    tell_until({end});
     now_ = end;
 }
 
-void WindowedEngine::tell_until(const Time& end) {
+void WindowedEngine::tell_until(const Stop& end) {
     std::vector<Told> told;
     for (DomainState& d : domains_) {
-        for (; d.told < d.notes.size() && d.notes[d.told].time <= end; ++d.told) {
+        for (; d.told < d.notes.size() && d.notes[d.told].time <= end.time; ++d.told) {
             count(d.notes[d.told]);
             if (listener_) told.push_back({&d.notes[d.told], &d.collisions[d.told]});
         }
@@ -113,7 +113,7 @@ void WindowedEngine::read(const Time& t, std::span<BallState> states) const {
     });
 }
 
-void WindowedEngine::visit_flights(const Time& from, const Time& to, const VisitFlights& visit) const {
+void WindowedEngine::visit_flights(const Stop& from, const Time& to, const VisitFlights& visit) const {
     for_each_domain([&](std::size_t k) {
         const DomainState& d = domains_[k];
         const auto& [records, extras] = held(d);

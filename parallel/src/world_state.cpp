@@ -141,7 +141,7 @@ void World::State::continue_with(std::shared_ptr<const Cast> next, const Snapsho
         make_engine(next->bodies, start_from(next->bodies, s, executor), executor, wanted);
     if (listener) made->listen(listener);
     engine = std::move(made);
-    if (watch_) engine->follow([this](const Time& t) { watch_->take(*engine, t, sensing); });
+    if (watch_) engine->follow([this](const Stop& stop) { watch_->take(*engine, stop, sensing); });
     cast = std::move(next);
     field_updates = s.field_updates;
     seconds = s.time;
@@ -156,7 +156,7 @@ void World::State::watch_anew() {
     watch_.reset();
     if (!sensing || sensors.empty()) return;
     watch_ = std::make_unique<SensorWatch>(bodies(), sensors, *engine, now);
-    engine->follow([this](const Time& t) { watch_->take(*engine, t, sensing); });
+    engine->follow([this](const Stop& stop) { watch_->take(*engine, stop, sensing); });
 }
 
 void World::State::forget() {

@@ -83,6 +83,31 @@ TEST_P(SensedScenes, SameBitsForThreadsDomainsAndFramesAndNoneChangesTheCourse) 
     EXPECT_TRUE(std::ranges::equal(later, expected.end(), rest.begin(), rest.end()));
 }
 
+// Everything at multiples of 2^-k: balls on a lattice at speed one, sensors between them. Collisions, balls
+// at sensors, frames and whatever the engine divides time by fall on the same instants, and order must not
+// show it.
+TEST(Sensors, HaveOneOrderWhereAllHappensAtOnce) {
+    Scene scene;
+    scene.domain = Domain{{{0, 0}, {16, 16}}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
+    scene.until = 8;
+    for (int i = 0; i < 256; ++i) {
+        Ball b;
+        b.radius = 0.25;
+        b.position = {i % 16 + 0.5, i / 16 + 0.5};
+        b.velocity = i % 3 == 0 ? Vec2(1, 0) : i % 3 == 1 ? Vec2(-1, 0) : Vec2(0, 1);
+        scene.balls.push_back(b);
+    }
+    scene.sensors = {
+        {{{3.25, 0}, {3.25, 16}}}, {{{8, 8}}, 2}, {{{10, 2}, {14, 2}, {14, 6}, {10, 6}}}, {{{16, 16}}, 1}};
+    std::uint64_t hash = 0;
+    const Told expected = sensed(scene, {.threads = 1, .domains = 1}, 8, 1, &hash);
+    EXPECT_GT(expected.size(), 300U);
+    for (const int domains : {1, 2, 5, 9})
+        for (const int frames : {1, 7, 32, 256})
+            EXPECT_TRUE(sensed(scene, {.threads = 2, .domains = domains}, 8, frames, &hash) == expected)
+                << domains << " domains, " << frames << " frames";
+}
+
 // At many times each ball is said to be where its distance says, but for balls at the border, and
 // balls_in_sensor() says the same.
 TEST_P(SensedScenes, TellsWhatTheDistancesSay) {
