@@ -29,7 +29,7 @@ namespace {
 constexpr const char* kFooter =
     R"(Draws scene after scene from all that a scene can have: gases and piles in periodic, walled and open boxes, walls that meet,
 static and large balls, masses from 1e-3 to 1e6, gravity, own accelerations, attractors, losses, touching and overlapping
-starts, fast balls, float, other units, categories and masks; half of them are edited as they run: balls, walls and forces come,
+starts, fast balls, float, other units, categories and masks, sensors; half of them are edited as they run: balls, walls and forces come,
 change and go. Each is run by several worlds with other threads, domains, cells and frames, and one
 that goes on from a snapshot. After each stretch of time all must show the same bits, and it is checked that no bodies overlap, that
 the list of collisions goes forward, obeys the law of impact and leads to the velocities and the energy shown, and, in small

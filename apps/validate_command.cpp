@@ -1,10 +1,12 @@
 // carom validate: is a scene sound, and what is in it?
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,36 +30,65 @@ be run. The first fault is named with its place:
 
 Examples:
   carom validate box.json
-  carom validate box.json && carom run box.json)";
+  carom validate box.json && carom run box.json
+  carom validate box.json --json | jq .packing)";
 
 std::string row(const std::string& name, const std::string& value) {
     return fmt::format("{:<14}{}\n", name, value);
 }
 
+constexpr const char* kBoundaryNames[] = {"wall", "periodic", "open"};
+
+/// The least and the most that a ball has; none where there is no ball.
 template <class Value>
-std::string range_of(const std::vector<Ball>& balls, Value value) {
-    if (balls.empty()) return "none";
+std::optional<std::pair<double, double>> range_of(const std::vector<Ball>& balls, Value value) {
+    if (balls.empty()) return std::nullopt;
     const auto less = [&](const Ball& a, const Ball& b) { return value(a) < value(b); };
     const auto [least, most] = std::minmax_element(balls.begin(), balls.end(), less);
-    if (value(*least) == value(*most)) return fmt::format("{:.6g}", value(*least));
-    return fmt::format("{:.6g} to {:.6g}", value(*least), value(*most));
+    return std::pair(value(*least), value(*most));
+}
+
+double radius_of(const Ball& ball) {
+    return ball.radius;
+}
+double mass_of(const Ball& ball) {
+    return ball.mass;
+}
+double speed_of(const Ball& ball) {
+    return std::hypot(ball.velocity.x(), ball.velocity.y());
+}
+
+/// The balls' area over the domain's.
+std::optional<double> packing_of(const Scene& scene) {
+    if (!scene.domain) return std::nullopt;
+    double area = 0;
+    for (const Ball& ball : scene.balls) area += std::numbers::pi * ball.radius * ball.radius;
+    const Vec2 extent = scene.domain->box.max - scene.domain->box.min;
+    return area / (extent.x() * extent.y());
+}
+
+std::size_t static_count(const Scene& scene) {
+    return static_cast<std::size_t>(std::ranges::count_if(scene.balls, &Ball::is_static));
+}
+
+std::string range_text(const std::optional<std::pair<double, double>>& range) {
+    if (!range) return "none";
+    const auto& [least, most] = *range;
+    return least == most ? fmt::format("{:.6g}", least) : fmt::format("{:.6g} to {:.6g}", least, most);
 }
 
 std::string domain_text(const Scene& scene) {
     if (!scene.domain) return "none: open space";
-    constexpr const char* kNames[] = {"wall", "periodic", "open"};
     const Domain& domain = *scene.domain;
-    const auto name = [&](std::size_t axis) { return kNames[int(domain.boundary[axis])]; };
+    const auto name = [&](std::size_t axis) { return kBoundaryNames[int(domain.boundary[axis])]; };
     return fmt::format("({:.6g}, {:.6g}) to ({:.6g}, {:.6g}), x {}, y {}", domain.box.min.x(),
                        domain.box.min.y(), domain.box.max.x(), domain.box.max.y(), name(0), name(1));
 }
 
-std::string packing_text(const Scene& scene, const std::vector<Ball>& balls) {
-    if (!scene.domain) return "none: no domain";
-    double area = 0;
-    for (const Ball& ball : balls) area += std::numbers::pi * ball.radius * ball.radius;
-    const Vec2 extent = scene.domain->box.max - scene.domain->box.min;
-    return fmt::format("{:.6g}", area / (extent.x() * extent.y()));
+std::string balls_text(const Scene& scene) {
+    const std::string all = with_thousands(scene.balls.size());
+    const std::size_t fixed = static_count(scene);
+    return fixed > 0 ? fmt::format("{} ({} static)", all, with_thousands(fixed)) : all;
 }
 
 /// What rests hops for a contact time: docs/accuracy.md has the figures.
@@ -77,31 +108,67 @@ std::string method_text(const Scene& scene) {
     return text;
 }
 
-int validate(const std::string& path) {
+std::string text_of(const Scene& scene, const World& world) {
+    const std::optional<double> packing = packing_of(scene);
+    return row("scene", scene.name) + row("balls", balls_text(scene)) +
+           row("walls", with_thousands(scene.walls.size())) +
+           row("attractors", with_thousands(scene.attractors.size())) +
+           row("sensors", with_thousands(scene.sensors.size())) +
+           row("radius", range_text(range_of(scene.balls, radius_of))) +
+           row("mass", range_text(range_of(scene.balls, mass_of))) +
+           row("speed", range_text(range_of(scene.balls, speed_of))) + row("domain", domain_text(scene)) +
+           row("packing", packing ? fmt::format("{:.6g}", *packing) : "none: no domain") +
+           row("gravity", fmt::format("({:.6g}, {:.6g})", scene.gravity.x(), scene.gravity.y())) +
+           row("precision", name_of(scene.precision)) + row("method", method_text(scene)) +
+           row("contact time", contact_text(world.contact_time())) + row("kernel", describe(world.kernel())) +
+           row("until", fmt::format("{:.6g}", scene.until));
+}
+
+/// The same as one object; null where the text says none.
+std::string json_of(const Scene& scene, const World& world) {
+    using Json = nlohmann::ordered_json;
+    const auto pair = [](const Vec2& v) { return Json{v.x(), v.y()}; };
+    const auto range = [](const std::optional<std::pair<double, double>>& r) {
+        return r ? Json{r->first, r->second} : Json();
+    };
+    const auto number = [](const auto& value) { return value ? Json(*value) : Json(); };
+    Json json;
+    json["scene"] = scene.name;
+    json["balls"] = scene.balls.size();
+    json["static_balls"] = static_count(scene);
+    json["walls"] = scene.walls.size();
+    json["attractors"] = scene.attractors.size();
+    json["sensors"] = scene.sensors.size();
+    json["radius"] = range(range_of(scene.balls, radius_of));
+    json["mass"] = range(range_of(scene.balls, mass_of));
+    json["speed"] = range(range_of(scene.balls, speed_of));
+    json["domain"] = nullptr;
+    if (const std::optional<Domain>& domain = scene.domain) {
+        json["domain"] = Json::object();
+        json["domain"]["min"] = pair(domain->box.min);
+        json["domain"]["max"] = pair(domain->box.max);
+        json["domain"]["boundary"] = {kBoundaryNames[int(domain->boundary[0])],
+                                      kBoundaryNames[int(domain->boundary[1])]};
+    }
+    json["packing"] = number(packing_of(scene));
+    json["gravity"] = pair(scene.gravity);
+    json["precision"] = name_of(scene.precision);
+    json["method"] = name_of(scene.method);
+    json["step"] = number(scene.step);
+    json["max_travel"] = number(scene.max_travel);
+    json["contact_time"] = world.contact_time();
+    json["kernel"] = describe(world.kernel());
+    json["until"] = scene.until;
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+int validate(const std::string& path, bool as_json) {
     Scene scene = read_scene(path);
     scene.balls = place_balls(scene);
     scene.fills.clear();
     // Whether balls overlap, and whatever else the engine asks of a scene, it asks when it is built.
     const World world(scene);
-
-    const auto static_count = std::count_if(scene.balls.begin(), scene.balls.end(),
-                                            [](const Ball& ball) { return ball.is_static; });
-    std::string balls = with_thousands(scene.balls.size());
-    if (static_count > 0)
-        balls += fmt::format(" ({} static)", with_thousands(static_cast<unsigned long long>(static_count)));
-    print_out(
-        row("scene", scene.name) + row("balls", balls) + row("walls", with_thousands(scene.walls.size())) +
-        row("attractors", with_thousands(scene.attractors.size())) +
-        row("radius", range_of(scene.balls, [](const Ball& ball) { return ball.radius; })) +
-        row("mass", range_of(scene.balls, [](const Ball& ball) { return ball.mass; })) +
-        row("speed",
-            range_of(scene.balls,
-                     [](const Ball& ball) { return std::hypot(ball.velocity.x(), ball.velocity.y()); })) +
-        row("domain", domain_text(scene)) + row("packing", packing_text(scene, scene.balls)) +
-        row("gravity", fmt::format("({:.6g}, {:.6g})", scene.gravity.x(), scene.gravity.y())) +
-        row("precision", name_of(scene.precision)) + row("method", method_text(scene)) +
-        row("contact time", contact_text(world.contact_time())) + row("kernel", describe(world.kernel())) +
-        row("until", fmt::format("{:.6g}", scene.until)));
+    print_out(as_json ? json_of(scene, world) : text_of(scene, world));
     return kGood;
 }
 
@@ -112,7 +179,9 @@ void add_validate_command(CLI::App& app, int& status) {
     command->footer(kFooter);
     const auto scene = std::make_shared<std::string>();
     command->add_option("SCENE", *scene, "The scene file, JSON")->type_name("")->required();
-    command->callback([scene, &status] { status = validate(*scene); });
+    const auto as_json = std::make_shared<bool>(false);
+    command->add_flag("--json", *as_json, "One JSON object instead of the table");
+    command->callback([scene, as_json, &status] { status = validate(*scene, *as_json); });
 }
 
 }  // namespace carom::app

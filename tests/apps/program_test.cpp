@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -68,6 +71,24 @@ TEST(Program, WrongUsageIsOneLineAndStatusTwo) {
     expect_one_error(folder.run({"run", "s.json", "--summary", "./s.json"}), 2, "overwrite the scene");
     expect_one_error(folder.run({"run", "s.json", "--summary", "x", "--events", "./x"}), 2, "same file");
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"s.json"}));
+}
+
+TEST(Program, ValidateSaysTheSameInJson) {
+    const Folder folder;
+    folder.write("s.json", kOneBall);
+    const Result result = folder.run({"validate", "s.json", "--json"});
+    EXPECT_EQ(result.status, 0);
+    const nlohmann::json json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["scene"], "one ball");
+    EXPECT_EQ(json["balls"], 1);
+    EXPECT_EQ(json["static_balls"], 0);
+    EXPECT_EQ(json["mass"], (nlohmann::json{2, 2}));
+    EXPECT_EQ(json["speed"], (nlohmann::json{3, 3}));
+    EXPECT_EQ(json["domain"]["boundary"], (nlohmann::json{"wall", "wall"}));
+    EXPECT_NEAR(json["packing"].get<double>(), 0.0025 * std::numbers::pi, 1e-15);
+    EXPECT_TRUE(json["step"].is_null());
+    EXPECT_EQ(json["until"], 9);
+    expect_one_error(folder.run({"validate", "none.json", "--json"}), 1, "none.json");
 }
 
 // The ball of 0.5 at speed 3 touches the gate at x = 8 at 2.5 / 3 and parts at 3.5 / 3, turns at 1.5 and
