@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Each, Faults,
                                          NamedFault{Fault::kSwappedMasses, "SwappedMasses", 60},
                                          NamedFault{Fault::kUnseenLarge, "UnseenLarge", 300},
                                          NamedFault{Fault::kUnlikeCopies, "UnlikeCopies", 300},
-                                         NamedFault{Fault::kForgottenHit, "ForgottenHit", 60},
+                                         NamedFault{Fault::kForgottenHit, "ForgottenHit", 150},
                                          NamedFault{Fault::kOneMask, "OneMask", 60},
                                          NamedFault{Fault::kOldFlights, "OldFlights", 60}),
                          [](const auto& param) { return std::string(param.param.name); });
