@@ -20,8 +20,8 @@ int main() {
         if (c.impulse > 0.5) hits.push_back(c);
     });
 
-    // A goal that balls fly through: who comes in, at the true time.
-    world.set_sensors({{.corners = {{14, 0}, {16, 0}, {16, 3}, {14, 3}}}});
+    // A goal at the bottom on the left: who comes in, at the true time.
+    world.set_sensors({{.corners = {{0, 0}, {3, 0}, {3, 1}, {0, 1}}}});
     int goals = 0;
     world.on_sensing([&goals](const carom::Sensing& s) { goals += s.enters; });
 
