@@ -99,7 +99,8 @@ class EditsDraw {
         }
         Wall w;
         w.from = place();
-        w.to = w.from + draw_.uniform(0.01, 0.3) * (place() - w.from);
+        const Vec2 other = place();  // apart: in one expression compilers differ in what they draw first
+        w.to = w.from + draw_.uniform(0.01, 0.3) * (other - w.from);
         if (draw_.one_in(3)) w.restitution = draw_.uniform(0, 1);
         if (draw_.one_in(6)) w.filter = draw_.filter();
         edits.added_walls.push_back(w);
