@@ -24,7 +24,7 @@
 namespace carom::app {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kAdviseFooter =
     R"(The error is the largest of four, on the stretch from the start, or --from, in which a ball has two collisions on the mean: the
 energy's difference from the reference over the most kinetic energy; missed and invented collisions over those compared; the
 deepest overlap at the ends of steps over the radii's sum; the balls' mean distance from their places in the reference, in
@@ -131,7 +131,7 @@ int advise(AdviseOptions options) {
 
 void add_advise_command(CLI::App& app, int& status) {
     CLI::App* const command = app.add_subcommand("advise", "Find the fastest setting that keeps an error");
-    command->footer(kFooter);
+    command->footer(kAdviseFooter);
     const auto options = std::make_shared<AdviseOptions>();
     AdviceRequest& request = options->request;
     command->add_option("SCENE", request.path, "The scene file, JSON")->type_name("")->required();

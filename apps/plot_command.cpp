@@ -22,7 +22,7 @@
 namespace carom::app {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kPlotFooter =
     R"(A scene (.json) is run to its end and measured: energy, rate of collisions and, in periodic boxes, pressure over time;
 the radial distribution g(r) and the distribution of the speeds, beside Maxwell's, over the second half.
 
@@ -86,7 +86,7 @@ int draw(const PlotOptions& options) {
 
 void add_plot_command(CLI::App& app, int& status) {
     CLI::App* const command = app.add_subcommand("plot", "Draw curves of a scene or of tables");
-    command->footer(kFooter);
+    command->footer(kPlotFooter);
     const auto options = std::make_shared<PlotOptions>();
     command->add_option("INPUT", options->inputs, "A scene (.json), or tables (.csv)")
         ->type_name("")

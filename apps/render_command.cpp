@@ -23,7 +23,7 @@
 namespace carom::app {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kRenderFooter =
     R"(Draws the scene's balls, coloured by speed or as --colour-by says, with its walls (white), static balls (hatched grey) and
 attractors. The sides of the domain are full lines where they are walls, dashed where periodic, dotted where open.
 
@@ -135,7 +135,7 @@ void add_movie_options(CLI::App& command, RenderOptions& options) {
 
 void add_render_command(CLI::App& app, int& status) {
     CLI::App* const command = app.add_subcommand("render", "Draw a still or a movie of a scene");
-    command->footer(kFooter);
+    command->footer(kRenderFooter);
     const auto options = std::make_shared<RenderOptions>();
     command->add_option("SCENE", options->scene, "The scene file, JSON")->type_name("")->required();
     command->add_option("--out", options->out, "The picture or movie, by its extension")

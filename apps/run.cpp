@@ -38,27 +38,28 @@ void write_event(EventsCsv& events, const Collision& collision) {
                   collision.impulse});
 }
 
-void listen(World& world, Driver& driver, RunOutputs& outputs, bool observes) {
-    if (outputs.sensings) {
-        world.on_sensing([&driver, &outputs](const Sensing& sensing) {
-            if (driver.failure) return;
-            try {
-                outputs.sensings->write(sensing);
-            } catch (...) {
-                driver.failure = std::current_exception();
-            }
-        });
-    }
-    if (!outputs.events && !observes) return;
-    world.on_collision([&driver, &outputs, observes](const Collision& collision) {
+/// A listener whose failure ends the run, after the engine has returned.
+template <class Write>
+auto guarded(Driver& driver, Write write) {
+    return [&driver, write](const auto& what) {
         if (driver.failure) return;
         try {
-            if (outputs.events) write_event(*outputs.events, collision);
-            if (observes) outputs.observation->record(collision);
+            write(what);
         } catch (...) {
             driver.failure = std::current_exception();
         }
-    });
+    };
+}
+
+void listen(World& world, Driver& driver, RunOutputs& outputs, bool observes) {
+    if (outputs.sensings)
+        world.on_sensing(
+            guarded(driver, [&outputs](const Sensing& sensing) { outputs.sensings->write(sensing); }));
+    if (!outputs.events && !observes) return;
+    world.on_collision(guarded(driver, [&outputs, observes](const Collision& collision) {
+        if (outputs.events) write_event(*outputs.events, collision);
+        if (observes) outputs.observation->record(collision);
+    }));
 }
 
 Precision output_precision(const Scene& scene, const RunOptions& options) {

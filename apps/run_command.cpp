@@ -22,7 +22,7 @@
 namespace carom::app {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kRunFooter =
     R"(Every collision is found at its true time and resolved in time order. The result does not depend on --threads, --step
 or --cell-size, to the last bit: 'state_hash' in the summary says so.
 
@@ -265,7 +265,7 @@ void add_method_options(CLI::App& command, RunOptions& options) {
 
 void add_run_command(CLI::App& app, int& status) {
     CLI::App* const command = app.add_subcommand("run", "Simulate a scene");
-    command->footer(kFooter);
+    command->footer(kRunFooter);
     const auto options = std::make_shared<RunOptions>();
     command->add_option("SCENE", options->scene, "The scene file, JSON")->type_name("")->required();
     command->add_option("--until", options->until, "Simulate to this time instead of the scene's")

@@ -26,7 +26,7 @@
 namespace carom::app {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kStressFooter =
     R"(Draws scene after scene from all that a scene can have: gases and piles in periodic, walled and open boxes, walls that meet,
 static and large balls, masses from 1e-3 to 1e6, gravity, own accelerations, attractors, losses, touching and overlapping
 starts, fast balls, float, other units, categories and masks, sensors; half of them are edited as they run: balls, walls and forces come,
@@ -188,7 +188,7 @@ int stress_scenes(const StressOptions& options) {
 
 void add_stress_command(CLI::App& app, int& status) {
     CLI::App* const command = app.add_subcommand("stress", "Check every promise on random adverse scenes");
-    command->footer(kFooter);
+    command->footer(kStressFooter);
     const auto options = std::make_shared<StressOptions>();
     CLI::Option* const files =
         command->add_option("SCENE", options->files, "Scene files to be examined instead of random ones")

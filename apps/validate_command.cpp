@@ -23,7 +23,7 @@
 namespace carom::app {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kValidateFooter =
     R"(Reads the scene, checks every value, places its fills, looks for overlaps, and prints what it found. A scene that passes can
 be run. The first fault is named with its place:
   carom: error: balls[17].radius: must be > 0, is -1
@@ -176,7 +176,7 @@ int validate(const std::string& path, bool as_json) {
 
 void add_validate_command(CLI::App& app, int& status) {
     CLI::App* const command = app.add_subcommand("validate", "Check a scene and say what is in it");
-    command->footer(kFooter);
+    command->footer(kValidateFooter);
     const auto scene = std::make_shared<std::string>();
     command->add_option("SCENE", *scene, "The scene file, JSON")->type_name("")->required();
     const auto as_json = std::make_shared<bool>(false);

@@ -10,7 +10,7 @@
 namespace carom::app {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kViewFooter =
     R"(Keys: space pauses, '.' goes on by one event, '+' and '-' change the speed, 'c' the colours, 'f' shows all,
 'h' hides the panel, 'r' begins anew, 'q' ends. Drag to move, wheel to zoom, click a ball to see its last event (anchor),
 its next one and its history.
@@ -28,7 +28,7 @@ Examples:
 
 void add_view_command(CLI::App& app, int& status) {
     CLI::App* const command = app.add_subcommand("view", "Watch a scene in a window");
-    command->footer(kFooter);
+    command->footer(kViewFooter);
     const auto options = std::make_shared<ViewOptions>();
     command->add_option("SCENE", options->scene, "The scene file, JSON")->type_name("")->required();
     command->add_option("--speed", options->speed, "Simulated time in a second (default: 1)")

@@ -9,10 +9,8 @@
 namespace carom::stress {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
@@ -22,7 +20,7 @@ std::uint64_t seed_of_scene(std::uint64_t seed, std::uint64_t number) {
 }
 
 Tally run_campaign(const CampaignOptions& options, const CampaignWatch& watch) {
-    const Clock::time_point start = Clock::now();
+    const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     Tally tally;
     const auto goes_on = [&] {
         if (watch.is_interrupted() || tally.failures >= options.most_failures) return false;
@@ -40,7 +38,7 @@ Tally run_campaign(const CampaignOptions& options, const CampaignWatch& watch) {
         tally.refused += verdict.is_refused;
         if (verdict.failed()) {
             ++tally.failures;
-            const Clock::time_point found = Clock::now();
+            const std::chrono::steady_clock::time_point found = std::chrono::steady_clock::now();
             trial = shrink(std::move(trial), verdict, [&] {
                 return seconds_since(found) < options.shrink_seconds && !watch.is_interrupted();
             });

@@ -151,8 +151,7 @@ void put_members(ObjectWriter& object, const Attractor& attractor) {
 
 void put_members(ObjectWriter& object, const Sensor& sensor) {
     std::string corners;
-    for (const Vec2& corner : sensor.corners)
-        corners += fmt::format("{}[{}, {}]", corners.empty() ? "" : ", ", json(corner.x()), json(corner.y()));
+    for (const Vec2& corner : sensor.corners) corners += (corners.empty() ? "" : ", ") + json(corner);
     object.raw("corners", "[" + corners + "]");
     object.put_unless(Sensor{}.radius, "radius", sensor.radius);
     put_filter(object, sensor.filter);

@@ -8,9 +8,9 @@
 namespace carom {
 
 std::string to_json(const Summary& summary) {
-    using Json = nlohmann::ordered_json;
-    const auto pair = [](const Vec2& v) { return Json::array({v.x(), v.y()}); };
-    Json json;
+    using OrderedJson = nlohmann::ordered_json;
+    const auto pair = [](const Vec2& v) { return OrderedJson::array({v.x(), v.y()}); };
+    OrderedJson json;
     json["scene"] = summary.scene;
     json["method"] = summary.method;
     json["precision"] = summary.precision;
@@ -30,16 +30,18 @@ std::string to_json(const Summary& summary) {
     json["momentum_final"] = pair(summary.momentum_final);
     json["max_overlap"] = summary.max_overlap;
     json["compressibility_factor"] =
-        summary.compressibility_factor ? Json(*summary.compressibility_factor) : Json();
+        summary.compressibility_factor ? OrderedJson(*summary.compressibility_factor) : OrderedJson();
     json["windows"] = summary.windows;
     json["window_retries"] = summary.window_retries;
-    const auto count = [](const std::optional<std::uint64_t>& n) { return n ? Json(*n) : Json(); };
+    const auto count = [](const std::optional<std::uint64_t>& n) {
+        return n ? OrderedJson(*n) : OrderedJson();
+    };
     json["steps"] = count(summary.steps);
     json["missed_collisions"] = count(summary.missed_collisions);
     json["peak_memory_bytes"] = summary.peak_memory_bytes;
     json["state_hash"] = fmt::format("{:016x}", summary.state_hash);
     // A scene's name may hold bytes that are no UTF-8; they must not cost the user the summary.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace carom

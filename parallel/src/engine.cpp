@@ -133,9 +133,8 @@ std::span<const Flight> FlightList::of(const Anchor& last, const Vec2& accelerat
 /// Adds a flight before those that are there.
 void FlightList::add(const Anchor& anchor, const Vec2& acceleration, const Time& to) {
     if (anchor.time > to) return;
-    const Vec2 a = bodies_.accelerates_each() ? acceleration : bodies_.physics.gravity;
     const Time end = flights_.empty() ? to : flights_.back().anchor.time;
-    flights_.push_back({anchor, {{anchor.x, anchor.y}, {anchor.vx, anchor.vy}, a}, end});
+    flights_.push_back({anchor, motion_since(bodies_, anchor, acceleration), end});
 }
 
 std::uint32_t Engine::most_events(std::span<const BallRecord> records) {

@@ -172,12 +172,16 @@ Collision collision_of(const Bodies& bodies, double seconds, std::uint32_t id, s
             hit.approach_speed};
 }
 
+Motion<double> motion_since(const Bodies& bodies, const Anchor& anchor, const Vec2& acceleration) {
+    return {{anchor.x, anchor.y},
+            {anchor.vx, anchor.vy},
+            bodies.accelerates_each() ? acceleration : bodies.physics.gravity};
+}
+
 BallState state_at(const Bodies& bodies, const Anchor& anchor, const Periods& periods,
                    const Vec2& acceleration, const Time& t) {
     const double since = bodies.physics.clock.difference(t, anchor.time);
-    const Motion<double> m{{anchor.x, anchor.y},
-                           {anchor.vx, anchor.vy},
-                           bodies.accelerates_each() ? acceleration : bodies.physics.gravity};
+    const Motion<double> m = motion_since(bodies, anchor, acceleration);
     const Vec2 x = position_at(m, since);
     Periods ignored;
     return {bodies.held_position(x, ignored),

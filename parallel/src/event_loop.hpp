@@ -28,6 +28,7 @@
 
 #include <carom/broadphase/cell_lists.hpp>
 #include <carom/core/event_queue.hpp>
+#include <carom/core/motion.hpp>
 #include <carom/parallel/world.hpp>
 
 #include "ball_record.hpp"
@@ -207,6 +208,10 @@ class EventLoop {
 /// The loop whose kernel suits the scene: no acceleration, the same for all balls, or each its own. `bodies`
 /// must outlive it.
 [[nodiscard]] std::unique_ptr<EventLoop> make_event_loop(const Bodies& bodies);
+
+/// The way from an anchor on of a ball with this acceleration of its own, if accelerations differ.
+[[nodiscard]] Motion<double> motion_since(const Bodies& bodies, const Anchor& anchor,
+                                          const Vec2& acceleration);
 
 /// The state at `t` >= its anchor of a ball with this acceleration of its own, if accelerations differ.
 [[nodiscard]] BallState state_at(const Bodies& bodies, const Anchor& anchor, const Periods& periods,

@@ -46,11 +46,12 @@ bool holds(const std::vector<Stretch>& stretches, const Clock& clock, const Time
 SensorWatch::SensorWatch(const Bodies& bodies, const std::vector<Sensor>& sensors, const Engine& engine,
                          const Time& now)
     : bodies_(&bodies), sensors_(sensors), inside_(bodies.count), seen_{now} {
-    for (const Sensor& sensor : sensors) boxes_.push_back(box_of(sensor));
-    tree_ = BoxTree(boxes_);
+    std::vector<Box> boxes;
+    for (const Sensor& sensor : sensors) boxes.push_back(box_of(sensor));
+    tree_ = BoxTree(boxes);
     const double far = std::numeric_limits<double>::infinity();
     all_ = {{far, far}, {-far, -far}};
-    for (const Box& box : boxes_) all_ = {all_.min.cwiseMin(box.min), all_.max.cwiseMax(box.max)};
+    for (const Box& box : boxes) all_ = {all_.min.cwiseMin(box.min), all_.max.cwiseMax(box.max)};
     std::vector<Change> ignored;
     look(engine, {now}, ignored);
 }

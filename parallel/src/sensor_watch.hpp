@@ -53,8 +53,7 @@ class SensorWatch {
 
     const Bodies* bodies_;
     const std::vector<Sensor>& sensors_;
-    std::vector<Box> boxes_;
-    Box all_;
+    Box all_;  ///< around all sensors
     BoxTree tree_;
     std::vector<std::vector<std::uint32_t>> inside_;  // rising
     Stop seen_;

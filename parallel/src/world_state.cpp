@@ -141,7 +141,7 @@ void World::State::continue_with(std::shared_ptr<const Cast> next, const Snapsho
         make_engine(next->bodies, start_from(next->bodies, s, executor), executor, wanted);
     if (listener) made->listen(listener);
     engine = std::move(made);
-    if (watch_) engine->follow([this](const Stop& stop) { watch_->take(*engine, stop, sensing); });
+    if (watch_) follow_flights();
     cast = std::move(next);
     field_updates = s.field_updates;
     seconds = s.time;
@@ -156,6 +156,10 @@ void World::State::watch_anew() {
     watch_.reset();
     if (!sensing || sensors.empty()) return;
     watch_ = std::make_unique<SensorWatch>(bodies(), sensors, *engine, now);
+    follow_flights();
+}
+
+void World::State::follow_flights() {
     engine->follow([this](const Stop& stop) { watch_->take(*engine, stop, sensing); });
 }
 

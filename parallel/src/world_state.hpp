@@ -123,6 +123,8 @@ class World::State {
 
  private:
     void check(const Snapshot& s) const;
+    /// Lets the watch, which is there, see what the engine does.
+    void follow_flights();
     /// What has been read is of the past.
     void forget();
     /// Goes on with these bodies from a snapshot of theirs; all stays as it was where that throws.

@@ -25,6 +25,9 @@ using testing::StartsWith;
 constexpr const char* kOrbit = R"({"balls": [{"position": [3, 0], "velocity": [0, 1]}],
     "attractors": [{"position": [0, 0], "strength": 4, "softening": 1}], "field_interval": 0.2, "until": 6})";
 
+// Far more than trying all takes, so that a machine's pause leaves nothing out.
+constexpr const char* kTimeForAll = "10";
+
 Json advice_of(const Folder& folder, std::vector<std::string> options) {
     options.insert(options.begin(), {"advise", "s.json", "--threads", "1", "--json"});
     const Result result = folder.run(options);
@@ -60,7 +63,7 @@ const Json& setting_of(const Json& advice, const std::string& name) {
 TEST(Advise, FiguresHangTogether) {
     const Folder folder;
     folder.write("s.json", busy_scene("wall"));
-    const Json advice = advice_of(folder, {"--seconds", "1", "--error", "0.01"});
+    const Json advice = advice_of(folder, {"--seconds", kTimeForAll, "--error", "0.01"});
     EXPECT_GT(advice["collisions_compared"], 50);
     ASSERT_GT(advice["settings"].size(), 3u);
     bool has_choice = false;
@@ -87,7 +90,7 @@ TEST(Advise, FiguresHangTogether) {
 TEST(Advise, ErrorsAreThoseOfTheRuns) {
     const Folder folder;
     folder.write("s.json", busy_scene("wall"));
-    const Json advice = advice_of(folder, {"--seconds", "1", "--error", "0.01"});
+    const Json advice = advice_of(folder, {"--seconds", kTimeForAll, "--error", "0.01"});
     const std::string until = advice["until"].dump();
     const std::vector<Ball> exact = balls_after(folder, "carom run s.json", until);
     int steps = 0;
@@ -151,13 +154,12 @@ TEST(Advise, FieldsErrorIsThatOfTheTrueOrbit) {
 // The command line is for a shell, and undoes what the scene says of steps.
 TEST(Advise, CommandLineRunsAsItStands) {
     const Folder folder;
-    std::string text = busy_scene("wall");
+    const std::string text = busy_scene("wall");
     folder.write("s.json", text);
-    const std::string key = "\"until\"";
-    text.insert(text.find(key), "\"method\": \"empirical\", \"step\": 1, \"max_travel\": 0.01, ");
-    folder.write("my scene's.json", text);
+    folder.write("my scene's.json",
+                 with_keys(text, "\"method\": \"empirical\", \"step\": 1, \"max_travel\": 0.01, "));
     const Result result =
-        folder.run({"advise", "my scene's.json", "--seconds", "1", "--json", "--error", "0.5"});
+        folder.run({"advise", "my scene's.json", "--seconds", kTimeForAll, "--json", "--error", "0.5"});
     ASSERT_EQ(result.status, 0) << result.err;
     const Json advice = Json::parse(result.out);
     const auto hash = [](const Result& run) { return summary_value(run.out, "state_hash"); };
@@ -225,7 +227,8 @@ TEST(Advise, SaysWhereNothingKeepsTheError) {
 TEST(Advise, OfASceneWhereNothingHappens) {
     const Folder folder;
     folder.write("s.json", R"({"balls": [{"position": [0, 0]}], "until": 1})");
-    EXPECT_EQ(advice_of(folder, {"--seconds", "1"})["choice"], "event");
+    // Of two that take no time the clock's noise chooses.
+    EXPECT_THAT(advice_of(folder, {"--seconds", "1"})["choice"], testing::AnyOf("event", "event, float"));
 }
 
 }  // namespace

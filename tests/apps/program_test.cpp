@@ -95,10 +95,7 @@ TEST(Program, ValidateSaysTheSameInJson) {
 // comes again.
 TEST(Program, WritesWhoComesIntoSensors) {
     const Folder folder;
-    std::string text = kOneBall;
-    const std::string key = "\"until\"";
-    text.insert(text.find(key), "\"sensors\": [{\"corners\": [[8, 0], [8, 10]]}], ");
-    folder.write("s.json", text);
+    folder.write("s.json", with_keys(kOneBall, "\"sensors\": [{\"corners\": [[8, 0], [8, 10]]}], "));
     const Result result =
         folder.run({"run", "s.json", "--until", "2", "--sensings", "in.csv", "--picture", "p.svg"});
     EXPECT_EQ(result.status, 0) << result.err;
@@ -183,10 +180,7 @@ TEST(Program, EmpiricalMethod) {
 
 TEST(Program, EmpiricalMethodFromTheScene) {
     const Folder folder;
-    std::string text = kOneBall;
-    const std::string key = "\"until\"";
-    text.insert(text.find(key), "\"method\": \"empirical\", \"step\": 0.25, ");
-    folder.write("s.json", text);
+    folder.write("s.json", with_keys(kOneBall, "\"method\": \"empirical\", \"step\": 0.25, "));
     EXPECT_THAT(folder.run({"validate", "s.json"}).out, HasSubstr("method        empirical, step 0.25\n"));
     const std::string out = folder.run({"run", "s.json", "--quiet"}).out;
     EXPECT_EQ(summary_value(out, "method"), "\"empirical\"");

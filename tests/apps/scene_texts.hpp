@@ -15,6 +15,11 @@ inline constexpr const char* kOneBall = R"({
     "balls": [{"position": [5, 5], "velocity": [3, 0], "radius": 0.5, "mass": 2}],
     "until": 9 })";
 
+// A scene's text with more keys, each ending in a comma.
+inline std::string with_keys(std::string scene, const std::string& keys) {
+    return scene.insert(scene.find("\"until\""), keys);
+}
+
 // Balls on a lattice with random velocities, a static one, a slanted wall, gravity.
 inline std::string busy_scene(const std::string& boundary) {
     std::mt19937_64 random(5);

@@ -9,6 +9,7 @@
 #include <carom/broadphase/cell_lists.hpp>
 #include <carom/broadphase/obstacles.hpp>
 
+#include "core/sensor_distance.hpp"
 #include "parallel/scenes.hpp"
 
 namespace carom::test {
@@ -178,13 +179,6 @@ TEST(CellLists, AgreeWithSets) {
                 << "step " << step << " cell " << c;
         }
     }
-}
-
-double distance_to_segment(const Vec2& p, const Vec2& from, const Vec2& to) {
-    const Vec2 d = to - from;
-    const Vec2 r = p - from;
-    const double along = std::clamp(dot(r, d) / length_squared(d), 0.0, 1.0);
-    return std::sqrt(length_squared<double>(r - along * d));
 }
 
 /// Whether a ball with its centre at p touches the obstacle moved by the shift.
