@@ -109,9 +109,6 @@ void take_method(Scene& scene, const RunOptions& options) {
                 throw CLI::ValidationError(name, "belongs to --method empirical, the method is event");
         return;
     }
-    for (const auto& [name, is_given] : {std::pair("--checkpoint", !options.checkpoint.empty()),
-                                         std::pair("--resume", !options.resume.empty())})
-        if (is_given) throw CLI::ValidationError(name, "belongs to --method event, the method is empirical");
     if (options.step) scene.step = options.step;
     if (options.tolerance) scene.tolerance = options.tolerance;
     if (options.max_travel) scene.max_travel = options.max_travel;

@@ -176,7 +176,9 @@ std::string find_fault(const World& world, const Edits& edits, const Added& adde
     for (std::size_t i = 0; i < ids.size(); ++i) {
         if (named.contains(ids[i])) continue;
         const Ball now = world.ball(ids[i]);
-        if (!is_same_body(balls[i], now) || !moves_on(balls[i], now, in_float && !now.is_static))
+        // The empirical method ends a step where it is edited.
+        const bool goes_on = world.counts().steps || moves_on(balls[i], now, in_float && !now.is_static);
+        if (!is_same_body(balls[i], now) || !goes_on)
             return fmt::format("ball {} is not what it was, though no edit names it", ids[i]);
     }
     for (std::size_t k = 0; k < added.balls.size(); ++k) {
@@ -185,6 +187,16 @@ std::string find_fault(const World& world, const Edits& edits, const Added& adde
     }
     if (edits.gravity && world.gravity() != *edits.gravity) return "gravity is not what it was set to";
     return {};
+}
+
+/// Steps may be as short as lets the smallest moving ball go a part of its radius.
+void keep_steps_long(Edits& edits, const Scene& scene) {
+    double smallest = HUGE_VAL;
+    for (const Ball& b : scene.balls)
+        if (!b.is_static) smallest = std::min(smallest, b.radius);
+    for (Ball& b : edits.added_balls) b.radius = std::max(b.radius, smallest);
+    for (BallChange& c : edits.changed_balls)
+        if (c.radius) c.radius = std::max(*c.radius, smallest);
 }
 
 }  // namespace
@@ -212,6 +224,7 @@ Edits draw_edits(std::uint64_t seed, std::uint32_t number, const Scene& scene, c
     Edits edits;
     EditsDraw one(draw, scene, world);
     for (std::size_t k = draw.one_in(3) ? 1 + draw.below(8) : 1; k > 0; --k) one.add_to(edits);
+    if (scene.method == Method::kEmpirical) keep_steps_long(edits, scene);
     return edits;
 }
 

@@ -59,7 +59,6 @@ class Examination {
         return stop > snapshot_stop_ || !snapshot_is_edited_;
     }
     void check_state(Watched& watched);
-    void expect_refusals(World& world);
     void expect_same(Watched& watched, std::size_t stop, bool is_edited);
     void advance(Watched& watched, double stop, bool in_frames);
     [[nodiscard]] WorldOptions drawn_options();
@@ -144,7 +143,7 @@ void Examination::check_state(Watched& w) {
 }
 
 void Examination::take_snapshot(const Watched& plain, std::size_t stop, bool is_edited) {
-    if (stop != snapshot_stop_ || is_edited != snapshot_is_edited_ || scene_.method != Method::kEvent) return;
+    if (stop != snapshot_stop_ || is_edited != snapshot_is_edited_) return;
     snapshot_ = plain.world().snapshot();
     seen_at_snapshot_ = plain.seen();
 }
@@ -154,8 +153,7 @@ void Examination::edit_plain(Watched& plain, std::size_t stop, Replay& replay) {
     World& world = plain.world();
     bool is_edited = false;
     for (const std::uint32_t number : trial_.edits) {
-        if (stretch_of_edit(trial_.seed, number, kStretches) != stop || scene_.method != Method::kEvent)
-            continue;
+        if (stretch_of_edit(trial_.seed, number, kStretches) != stop) continue;
         const Edits edits = draw_edits(trial_.seed, number, scene_, world);
         const Edited edited = apply_edits(world, edits);
         edits_[stop].push_back({edits, edited.answer});
@@ -198,28 +196,9 @@ void Examination::run_through(Watched& plain, Replay& replay, Verdict& verdict) 
     }
 }
 
-/// The empirical method keeps no snapshots and takes no edits, and says so.
-void Examination::expect_refusals(World& world) {
-    const auto refuses = [](auto&& ask) {
-        try {
-            ask();
-        } catch (const SnapshotError&) {
-            return true;
-        } catch (const std::logic_error&) {
-            return true;
-        }
-        return false;
-    };
-    if (!refuses([&] { static_cast<void>(world.snapshot()); }))
-        throw Failure{"empirical", "a snapshot is not refused"};
-    if (!refuses([&] { static_cast<void>(world.apply({})); }))
-        throw Failure{"empirical", "an edit is not refused"};
-}
-
 /// The run that all others are compared with: one thread, one domain, each stretch at once.
 void Examination::run_plain(Verdict& verdict) {
     Watched plain("plain", World(scene_, {.threads = 1, .domains = 1}));
-    if (scene_.method == Method::kEmpirical) expect_refusals(plain.world());
     has_field_ = !scene_.attractors.empty();
     Replay replay(scene_, plain.world());
     legs_.push_back(leg_from(scene_, plain.world(), false));

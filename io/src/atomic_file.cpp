@@ -19,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr mode_t kReadWriteAll = 0666;  // the umask takes away what the user does not want
-
 /// Opens a new file beside the target under a name that nobody has.
 int open_beside(const fs::path& target, fs::path& temporary) {
     constexpr int kMostTries = 100;

@@ -63,6 +63,13 @@ void each(F& f, T& s) {
     f(s.high);
     f(s.is_lost);
 }
+template <class F, Like<SavedContact> T>
+void each(F& f, T& c) {
+    f(c.ball);
+    f(c.partner);
+    f(c.image_x);
+    f(c.image_y);
+}
 template <class F, Like<RunRecord> T>
 void each(F& f, T& r) {
     f(r.energy_initial);
@@ -75,7 +82,8 @@ void each(F& f, T& r) {
 }
 
 /// Calls visitor.items(name, item...) for a section of a few items that is always there, visitor.list(name,
-/// vector) for one of an item a moving ball, which may be absent, visitor.optional(name, item) for others.
+/// vector) for one of an item a moving ball, which may be absent, visitor.optional(name, item) for others,
+/// among them vectors of any length.
 template <class Visitor, Like<Checkpoint> T>
 void for_each_section(Visitor& visitor, T& checkpoint) {
     auto& s = checkpoint.snapshot;
@@ -85,6 +93,9 @@ void for_each_section(Visitor& visitor, T& checkpoint) {
     visitor.list("anchors", s.anchors);
     visitor.list("last collisions", s.last_collisions);
     visitor.list("accelerations", s.accelerations);
+    visitor.optional("steps", s.counts.steps);
+    visitor.optional("missed", s.counts.missed_collisions);
+    visitor.optional("contacts", s.contacts);
     visitor.optional("run", checkpoint.run);
 }
 

@@ -40,6 +40,7 @@ class Source {
     }
 
     void operator()(bool& truth) { truth = take<std::uint64_t>() != 0; }
+    void operator()(std::uint32_t& n) { n = take<std::uint32_t>(); }
     void operator()(std::uint64_t& n) { n = take<std::uint64_t>(); }
     void operator()(std::int32_t& n) { n = static_cast<std::int32_t>(take<std::uint32_t>()); }
     void operator()(std::int64_t& n) { n = static_cast<std::int64_t>(take<std::uint64_t>()); }
@@ -93,6 +94,15 @@ struct SectionReader {
         if (content->size() != size_of<T>()) fail(name);
         Source source(*content);
         each(source, item.emplace());
+    }
+    template <class T>
+    void optional(std::string_view name, std::optional<std::vector<T>>& all) {
+        const std::optional<std::string_view> content = find(name);
+        if (!content) return;
+        if (content->size() % size_of<T>() != 0) fail(name);
+        all.emplace(content->size() / size_of<T>());
+        Source source(*content);
+        for (T& item : *all) each(source, item);
     }
 };
 

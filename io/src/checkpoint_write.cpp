@@ -74,6 +74,10 @@ struct Sizes {
     void optional(std::string_view, const std::optional<T>& item) {
         if (item) add(size_of<T>());
     }
+    template <class T>
+    void optional(std::string_view, const std::optional<std::vector<T>>& all) {
+        if (all) add(all->size() * size_of<T>());
+    }
 };
 
 struct SectionWriter {
@@ -89,8 +93,7 @@ struct SectionWriter {
         (each(sink, item), ...);
     }
     template <class T>
-    void list(std::string_view name, const std::vector<T>& all) {
-        if (all.empty()) return;
+    void write(std::string_view name, const std::vector<T>& all) {
         start(name, all.size() * size_of<T>());
         for (const T& item : all) {
             each(sink, item);
@@ -98,8 +101,16 @@ struct SectionWriter {
         }
     }
     template <class T>
+    void list(std::string_view name, const std::vector<T>& all) {
+        if (!all.empty()) write(name, all);
+    }
+    template <class T>
     void optional(std::string_view name, const std::optional<T>& item) {
         if (item) items(name, *item);
+    }
+    template <class T>
+    void optional(std::string_view name, const std::optional<std::vector<T>>& all) {
+        if (all) write(name, *all);
     }
 };
 

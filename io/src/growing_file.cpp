@@ -13,7 +13,6 @@
 namespace carom {
 
 GrowingFile::GrowingFile(std::filesystem::path path, OpenFlags flags) : path_(std::move(path)) {
-    constexpr mode_t kReadWriteAll = 0666;  // the umask takes away what the user does not want
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | flags.value, kReadWriteAll);
     if (descriptor_ < 0) fail(errno);
     struct stat status{};

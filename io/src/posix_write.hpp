@@ -1,10 +1,15 @@
 // write(2) to its end.
 #pragma once
 
+#include <sys/types.h>
+
 #include <string>
 #include <string_view>
 
 namespace carom {
+
+/// The mode of new files; the umask takes away what the user does not want.
+inline constexpr mode_t kReadWriteAll = 0666;
 
 /// What an errno means.
 [[nodiscard]] std::string reason(int error_number);

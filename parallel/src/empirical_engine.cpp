@@ -22,9 +22,12 @@ EmpiricalEngine::EmpiricalEngine(const Bodies& bodies, const EngineStart& start,
       steps_(bodies.physics.empirical.value_or(EmpiricalSteps{})),
       clock_(bodies.physics.clock),
       counts_missed_(count_missed),
-      grid_(bodies.grid) {
+      grid_(bodies.grid),
+      now_(start.records.empty() ? start.now : start.records.front().anchor.time) {
     slot_of_.assign(bodies.count, kNowhere);
-    for (const BallRecord& record : start.records) {
+    for (std::size_t k = 0; k < start.records.size(); ++k) {
+        const BallRecord& record = start.records[k];
+        if (record.anchor.time != now_) throw SnapshotError("holds balls at different times");
         slot_of_[record.id] = static_cast<std::uint32_t>(id_.size());
         id_.push_back(record.id);
         x_.push_back(record.anchor.x);
@@ -33,7 +36,8 @@ EmpiricalEngine::EmpiricalEngine(const Bodies& bodies, const EngineStart& start,
         vy_.push_back(record.anchor.vy);
         periods_.push_back(record.periods);
         if (!bodies.radius.is_one()) radius_.push_back(bodies.radius.of(record.id));
-        if (bodies.physics.contact_time > 0) last_collision_.push_back(BallExtra{}.last_collision);
+        if (bodies.physics.contact_time > 0) last_collision_.push_back(start.extras[k].last_collision);
+        if (bodies.accelerates_each()) acceleration_.push_back(start.extras[k].acceleration);
         if (!bodies.large.empty())
             is_large_.push_back(std::ranges::binary_search(bodies.large, record.id) ? 1 : 0);
     }
@@ -44,19 +48,45 @@ EmpiricalEngine::EmpiricalEngine(const Bodies& bodies, const EngineStart& start,
     if (count_missed) travel_.resize(size());
     touched_index_.assign(size(), kNowhere);
     first_touched_.assign(static_cast<std::size_t>(grid_.cell_count()), kNowhere);
-    counts_.steps = 0;
-    if (count_missed) counts_.missed_collisions = 0;
+    counts_.steps = counts_.steps.value_or(0);
+    if (count_missed)
+        counts_.missed_collisions = counts_.missed_collisions.value_or(0);
+    else
+        counts_.missed_collisions.reset();
 
-    // Who overlaps at the start, or touches: a step of no length.
-    if (bodies.accelerates_each()) acceleration_.assign(size(), Vec2::Zero());
-    move_all();
-    search();
-    lasting_.insert(lasting_.end(), contacts_.begin(), contacts_.end());
-    contacts_.clear();
-    if (bodies.accelerates_each())
+    if (start.contacts) {
+        for (const SavedContact& contact : *start.contacts) lasting_.push_back(meeting_of(contact));
+    } else {  // who overlaps at the start, or touches: a step of no length
+        move_all();
+        search();
+        lasting_.insert(lasting_.end(), contacts_.begin(), contacts_.end());
+        contacts_.clear();
+    }
+    // The step before the present one, or an earlier one.
+    step_index_ = std::max(0.0, std::floor(clock_.to_seconds(now_) / steps_.longest) - 1);
+    if (bodies.accelerates_each() && !start.has_field)
         renew_field({});
     else
         schedule();
+}
+
+/// A contact as it was saved. Throws SnapshotError where it cannot be.
+EmpiricalEngine::Meeting EmpiricalEngine::meeting_of(const SavedContact& c) const {
+    const auto moves = [this](std::uint32_t body) {
+        return body < bodies_.count && slot_of_[body] != kNowhere;
+    };
+    const bool is_side = c.partner >= bodies_.first_side();
+    if (!moves(c.ball) || c.partner >= bodies_.first_side() + 4 ||
+        (moves(c.partner) && c.partner <= c.ball) ||
+        (is_side &&
+         bodies_.physics.domain.boundary[Side(c.partner - bodies_.first_side()).axis] != Boundary::kWall))
+        throw SnapshotError("holds a contact of bodies that cannot touch");
+    const Pair pair{slot_of_[c.ball],
+                    moves(c.partner) ? slot_of_[c.partner] : kNowhere,
+                    c.partner,
+                    {c.image_x, c.image_y}};
+    if (!is_close(pair)) throw SnapshotError("holds a contact of bodies that are apart");
+    return meeting_of(pair, 0);
 }
 
 /// Chooses the end of the next step.
@@ -240,18 +270,36 @@ void EmpiricalEngine::audit(std::vector<Violation>& found) const {
         if (is_touched(i)) report("is still within a step");
     }
     for (const Meeting& m : lasting_) {
-        const auto place = [this](std::uint32_t slot) { return Vec2(x_[slot], y_[slot]); };
-        const Vec2 centre = place(m.pair.slot);
-        const Vec2 other = m.pair.other == kNowhere ? centre : place(m.pair.other);
-        if (!(touch(m.pair, centre, other).gap < radius_of(m.pair.slot)))
+        if (!is_close(m.pair))
             found.push_back({bodies_.ball_name(id_[m.pair.slot]) + ": is kept as overlapping body " +
                              std::to_string(m.pair.partner) + ", which is elsewhere"});
     }
     if (!(now_ < next_) && size() > 0) found.push_back({"the next step lies in the past"});
 }
 
-void EmpiricalEngine::save(const Time&, Snapshot&) const {
-    throw SnapshotError("the empirical method keeps no snapshots");
+/// Whether two bodies are where they may be kept as overlapping at the end of the last step.
+bool EmpiricalEngine::is_close(const Pair& pair) const {
+    const auto place = [this](std::uint32_t slot) { return Vec2(x_[slot], y_[slot]); };
+    const Vec2 centre = place(pair.slot);
+    const Vec2 other = pair.other == kNowhere ? centre : place(pair.other);
+    return touch(pair, centre, other).gap < radius_of(pair.slot);
+}
+
+void EmpiricalEngine::save(const Time&, Snapshot& snapshot) const {
+    snapshot.method = "empirical";
+    BallSaver saver(bodies_, snapshot);
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        BallExtra extra;
+        if (!last_collision_.empty()) extra.last_collision = last_collision_[i];
+        if (!acceleration_.empty()) extra.acceleration = acceleration_[i];
+        saver.save(id_[i], {x_[i], y_[i], vx_[i], vy_[i], now_, 0, 0, {}}, periods_[i], extra);
+    }
+    std::vector<SavedContact>& contacts = snapshot.contacts.emplace();
+    for (const Meeting& m : lasting_)
+        contacts.push_back({id_[m.pair.slot], m.pair.partner, m.pair.image.x, m.pair.image.y});
+    std::ranges::sort(contacts, {}, [](const SavedContact& c) {
+        return std::tuple(c.ball, c.partner, c.image_x, c.image_y);
+    });
 }
 
 void EmpiricalEngine::visit_flights(const Stop&, const Time&, const VisitFlights&) const {

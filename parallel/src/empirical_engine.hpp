@@ -39,7 +39,7 @@ class EmpiricalEngine final : public Engine {
     void advance_to(const Time& end, const Time& horizon) override;
     void renew_field(const Time& t) override;
     void read(const Time& t, std::span<BallState> states) const override;
-    /// Throws SnapshotError: what is kept between two steps is in no snapshot yet.
+    /// The balls as the last step has left them, and who overlapped then.
     void save(const Time& t, Snapshot& snapshot) const override;
     void audit(std::vector<Violation>& found) const override;
     void visit_flights(const Stop&, const Time&, const VisitFlights&) const override;
@@ -153,6 +153,8 @@ class EmpiricalEngine final : public Engine {
     [[nodiscard]] bool overlap_at_end(std::uint32_t a, std::uint32_t b, const Vec2& shift) const;
     [[nodiscard]] Touch touch(const Pair& pair, const Vec2& centre, const Vec2& other) const;
     [[nodiscard]] Meeting meeting_of(const Pair& pair, double time) const;
+    [[nodiscard]] Meeting meeting_of(const SavedContact& contact) const;
+    [[nodiscard]] bool is_close(const Pair& pair) const;
     /// Of a way through more periods than a few, and of what is further beside a way, nothing is looked at.
     [[nodiscard]] static double within_periods(const GridAxis& axis, double length) {
         constexpr double kMostPeriods = 8;

@@ -68,6 +68,7 @@ EngineStart start_from(const Bodies& bodies, const Snapshot& s, const Executor& 
     start.has_field = true;
     start.counts = s.counts;
     start.virial = s.virial;
+    start.contacts = s.contacts;
     start.records.resize(s.anchors.size());
     if (bodies.needs_extras()) start.extras.resize(s.anchors.size());
     std::size_t rank = 0;

@@ -1,6 +1,7 @@
 // What an engine starts from, and how it gives its balls: from a scene or a snapshot, to a snapshot.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct EngineStart {
     bool has_field = false;  ///< whether the extras hold the attractors' accelerations already
     Counts counts;
     SavedSum virial;
+    std::optional<std::vector<SavedContact>> contacts;  ///< of the empirical method, where they are known
 };
 
 /// The scene's beginning.

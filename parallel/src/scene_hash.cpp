@@ -37,6 +37,8 @@ std::uint64_t scene_hash(const Scene& scene, const Physics& physics, std::span<c
     h << std::uint64_t{scene.attractors.size()};
     for (const Attractor& a : scene.attractors) h << a.position << a.strength << a.softening;
     if (!scene.attractors.empty()) h << scene.field_interval;
+    if (physics.empirical)
+        h << physics.empirical->longest << physics.empirical->travel << physics.empirical->tolerance;
     h << std::uint64_t{balls.size()};
     h << executor.sum(balls.size(), std::uint64_t{0}, [balls](std::size_t first, std::size_t last) {
         std::uint64_t sum = 0;

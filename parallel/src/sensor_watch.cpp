@@ -47,6 +47,7 @@ SensorWatch::SensorWatch(const Bodies& bodies, const std::vector<Sensor>& sensor
                          const Time& now)
     : bodies_(&bodies), sensors_(sensors), inside_(bodies.count), seen_{now} {
     std::vector<Box> boxes;
+    boxes.reserve(sensors.size());
     for (const Sensor& sensor : sensors) boxes.push_back(box_of(sensor));
     tree_ = BoxTree(boxes);
     const double far = std::numeric_limits<double>::infinity();

@@ -204,11 +204,18 @@ std::uint64_t updates_until(double seconds, double interval) {
 }  // namespace
 
 Added World::State::apply(const Edits& edits) {
-    if (bodies().physics.empirical)
-        throw std::logic_error("the empirical method does not take edits of a running world");
+    // A step of the empirical method ends where edits take place. Refused ones must end none, so another
+    // engine does it first.
+    std::unique_ptr<Engine> ahead;
+    std::vector<BallState> states_ahead;
+    if (bodies().physics.empirical) {
+        ahead = make_from(*cast, snapshot());
+        ahead->advance_to(now, now);
+        read(*ahead, states_ahead);
+    }
     Members<Ball> balls;
     balls.reserve(size() + edits.added_balls.size());
-    const std::vector<BallState>& all = states();
+    const std::vector<BallState>& all = ahead ? states_ahead : states();
     for (std::uint32_t i = 0; i < size(); ++i)
         balls.push_back({bodies().ball_id(i), i, false, false, false, ball(i, all[i])});
     Members<Wall> walls;
@@ -257,7 +264,7 @@ Added World::State::apply(const Edits& edits) {
     const bool walls_are_new = !edits.added_walls.empty() && !is_active(Fault::kOldFlights);
     const bool all_start_anew =
         edits.attractors || edits.gravity || walls_are_new || std::ranges::any_of(balls, is_new_obstacle);
-    Carrier carrier(snapshot(), bodies(), next->bodies, now);
+    Carrier carrier(snapshot_of(ahead ? *ahead : *engine), bodies(), next->bodies, now);
     for (std::uint32_t i = 0; i < balls.size(); ++i) {
         const Member<Ball>& m = balls[i];
         if (m.body.is_static) continue;
@@ -271,9 +278,11 @@ Added World::State::apply(const Edits& edits) {
     Snapshot s = carrier.take();
     s.scene_hash = next->hash;
     s.field_updates = rules.attractors.empty() ? 0 : updates_until(seconds, rules.field_interval);
+    std::unique_ptr<Engine> made = make_from(*next, s);
+    if (ahead) engine->advance_to(now, now);  // and whoever listens is told
     const std::vector<BallState> before = watch_ ? all : std::vector<BallState>();
     const std::shared_ptr<const Cast> past = cast;  // until the watch has gone on
-    continue_with(next, s);
+    continue_with(next, std::move(made), s);
     for (const std::uint32_t id : edits.removed_balls)
         if (id < user_data.size()) user_data[id] = 0;
     if (watch_) watch_->go_on_with(bodies(), *engine, now, before, sensing);

@@ -102,28 +102,29 @@ World::State::State(const Scene& scene, const WorldOptions& options, const Snaps
         engine = make_engine(bodies(), start_at_zero(bodies(), balls), executor, options);
 }
 
-Snapshot World::State::snapshot() const {
+Snapshot World::State::snapshot_of(const Engine& e) const {
     Snapshot s;
     s.scene_hash = cast->hash;
     s.time = seconds;
     s.field_updates = field_updates;
-    s.counts = engine->counts();
-    s.virial = engine->saved_virial();
+    s.counts = e.counts();
+    s.virial = e.saved_virial();
     if (cast->is_edited) s.edited = cast;
-    engine->save(now, s);
+    e.save(now, s);
     return s;
 }
 
 void World::State::restore(const Snapshot& s) {
     check(s);
-    continue_with(s.edited ? s.edited : scene_cast, s);
+    const std::shared_ptr<const Cast> next = s.edited ? s.edited : scene_cast;
+    continue_with(next, make_from(*next, s), s);
     watch_anew();
 }
 
 void World::State::check(const Snapshot& s) const {
     const Physics& physics = bodies().physics;
-    if (physics.empirical) throw SnapshotError("cannot be gone on from by the empirical method");
-    if (s.method != "event") throw SnapshotError("is of the method '" + s.method + "'");
+    if (s.method != (physics.empirical ? "empirical" : "event"))
+        throw SnapshotError("is of the method '" + s.method + "'");
     const Cast& of = s.edited ? *s.edited : *scene_cast;
     if (of.hash != s.scene_hash || of.hash_of_scene != scene_cast->hash_of_scene)
         throw SnapshotError("is of another scene");
@@ -136,9 +137,8 @@ void World::State::check(const Snapshot& s) const {
     if (!fits) throw SnapshotError("has another number of field updates than its time");
 }
 
-void World::State::continue_with(std::shared_ptr<const Cast> next, const Snapshot& s) {
-    std::unique_ptr<Engine> made =
-        make_engine(next->bodies, start_from(next->bodies, s, executor), executor, wanted);
+void World::State::continue_with(std::shared_ptr<const Cast> next, std::unique_ptr<Engine> made,
+                                 const Snapshot& s) {
     if (listener) made->listen(listener);
     engine = std::move(made);
     if (watch_) follow_flights();
@@ -171,12 +171,16 @@ void World::State::forget() {
 const std::vector<BallState>& World::State::states() const {
     const std::lock_guard lock(reading_);
     if (!is_read_) {
-        states_.resize(size());
-        for (const auto& [index, state] : cast->fixed_states) states_[index] = state;
-        engine->read(now, states_);
+        read(*engine, states_);
         is_read_ = true;
     }
     return states_;
+}
+
+void World::State::read(const Engine& e, std::vector<BallState>& all) const {
+    all.resize(size());
+    for (const auto& [index, state] : cast->fixed_states) all[index] = state;
+    e.read(now, all);
 }
 
 const PlaceIndex& World::State::places() const {

@@ -65,7 +65,7 @@ class World::State {
     /// From the scene's beginning where `snapshot` is null.
     State(const Scene& scene, const WorldOptions& options, const Snapshot* snapshot);
 
-    [[nodiscard]] Snapshot snapshot() const;
+    [[nodiscard]] Snapshot snapshot() const { return snapshot_of(*engine); }
     void restore(const Snapshot& s);
     void advance_to(double time);
     [[nodiscard]] Added apply(const Edits& edits);
@@ -127,8 +127,13 @@ class World::State {
     void follow_flights();
     /// What has been read is of the past.
     void forget();
-    /// Goes on with these bodies from a snapshot of theirs; all stays as it was where that throws.
-    void continue_with(std::shared_ptr<const Cast> next, const Snapshot& s);
+    [[nodiscard]] Snapshot snapshot_of(const Engine& e) const;
+    void read(const Engine& e, std::vector<BallState>& all) const;
+    [[nodiscard]] std::unique_ptr<Engine> make_from(const Cast& of, const Snapshot& s) const {
+        return make_engine(of.bodies, start_from(of.bodies, s, executor), executor, wanted);
+    }
+    /// Goes on with these bodies and an engine made from a snapshot of theirs.
+    void continue_with(std::shared_ptr<const Cast> next, std::unique_ptr<Engine> made, const Snapshot& s);
 
     std::unique_ptr<SensorWatch> watch_;  // where somebody listens
     mutable std::mutex reading_;

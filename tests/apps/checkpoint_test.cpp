@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "program.hpp"
@@ -36,18 +37,26 @@ void expect_same_end(const Folder& folder, const std::string& a, const std::stri
         EXPECT_TRUE(folder.read(a + kind) == folder.read(b + kind)) << kind << " differs";
     for (const char* const key :
          {"scene", "method", "precision", "balls", "walls", "time", "ball_collisions", "wall_collisions",
-          "energy_initial", "energy_final", "energy_relative_change", "momentum_initial", "momentum_final",
-          "max_overlap", "compressibility_factor", "state_hash"})
+          "steps", "missed_collisions", "energy_initial", "energy_final", "energy_relative_change",
+          "momentum_initial", "momentum_final", "max_overlap", "compressibility_factor", "state_hash"})
         EXPECT_EQ(summary_value(folder.read(a + ".json"), key), summary_value(folder.read(b + ".json"), key))
             << key;
 }
 
-class ResumedRun : public testing::TestWithParam<std::string> {};
+/// A boundary, and a method.
+class ResumedRun : public testing::TestWithParam<std::pair<std::string, std::string>> {
+ protected:
+    static bool is_stepped() { return GetParam().second == "empirical"; }
+    static std::string scene() {
+        const std::string busy = busy_scene(GetParam().first);
+        return is_stepped() ? with_keys(busy, "\"method\": \"empirical\", \"step\": 0.03, ") : busy;
+    }
+};
 
 // The three stops: at a frame, between two, and where 3 * 0.7 lies a rounding before the end at 2.1.
 TEST_P(ResumedRun, LeavesTheSameFiles) {
     const Folder folder;
-    folder.write("s.json", busy_scene(GetParam()));
+    folder.write("s.json", scene());
     for (const auto& [stop, every] : {std::pair("3.5", "0.7"), {"4.123", "0.7"}, {"2.1", "0.7"}}) {
         SCOPED_TRACE(stop);
         ASSERT_EQ(folder.run(run_of("a", "7", every)).status, 0);
@@ -63,16 +72,14 @@ TEST_P(ResumedRun, LeavesTheSameFiles) {
 // one, which covers all but the end itself.
 TEST_P(ResumedRun, GoesOnFromAnyCheckpointAnyNumberOfTimes) {
     const Folder folder;
-    folder.write("s.json", busy_scene(GetParam()));
+    folder.write("s.json", scene());
     const Words options = {"--precision", "float"};
     ASSERT_EQ(folder.run(run_of("a", "6", "0.5") + options).status, 0);
     ASSERT_EQ(folder.run(run_of("b", "2", "0.5") + options + Words{"--checkpoint", "first"}).status, 0);
-    ASSERT_EQ(folder
-                  .run(run_of("b", "6", "0.5") + options +
-                       Words{"--resume", "first", "--checkpoint", "c", "--checkpoint-every", "1.3", "--step",
-                             "0.17"})
-                  .status,
-              0);
+    Words further = run_of("b", "6", "0.5") + options +
+                    Words{"--resume", "first", "--checkpoint", "c", "--checkpoint-every", "1.3"};
+    if (!is_stepped()) further = further + Words{"--step", "0.17"};  // else the steps are the scene's
+    ASSERT_EQ(folder.run(further).status, 0);
     expect_same_end(folder, "a", "b");
     for (const std::string from : {"first", "c", "c", "first"}) {
         SCOPED_TRACE(from);
@@ -82,7 +89,10 @@ TEST_P(ResumedRun, GoesOnFromAnyCheckpointAnyNumberOfTimes) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Boundaries, ResumedRun, testing::Values("wall", "periodic", "open"));
+INSTANTIATE_TEST_SUITE_P(Scenes, ResumedRun,
+                         testing::Values(std::pair("wall", "event"), std::pair("periodic", "event"),
+                                         std::pair("open", "event"), std::pair("wall", "empirical"),
+                                         std::pair("periodic", "empirical")));
 
 class InterruptedRun : public testing::TestWithParam<int> {};
 
@@ -130,6 +140,8 @@ TEST(Checkpoints, WhatCannotBeGoneOnFromIsRefusedAndLeftAlone) {
     refused(Words{"run", "other.json", "--resume", "c"} + outputs, "c: is of another scene");
     refused(Words{"run", "s.json", "--precision", "float", "--resume", "c"} + outputs,
             "c: is of another scene");
+    refused(Words{"run", "s.json", "--method", "empirical", "--resume", "c"} + outputs,
+            "c: is of the method 'event'");
     refused(Words{"run", "s.json", "--until", "2", "--resume", "c"} + outputs,
             "c: is at time 3, after the end at 2");
     refused({"run", "s.json", "--resume", "c", "--trajectory", "b.xyz", "--every", "0.25"},

@@ -1,4 +1,5 @@
 // Checkpoints as files: what is written is read back to the bit, and what is not whole is refused.
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -47,6 +48,18 @@ Checkpoint any_checkpoint(std::uint64_t seed, std::size_t balls) {
                              static_cast<std::int32_t>(generator()), static_cast<std::int32_t>(generator())});
         if (seed % 4 < 2) s.last_collisions.push_back(any_time(generator));
         if (seed % 8 < 4) s.accelerations.push_back(any_pair(generator));
+    }
+    if (seed % 3 != 1) {
+        s.counts.steps = generator();
+        if (seed % 2 != 0) s.counts.missed_collisions = generator();
+        std::vector<SavedContact>& contacts = s.contacts.emplace();
+        for (std::uint64_t k = 0; k < seed % 4; ++k) {
+            const std::uint64_t bodies = generator();
+            const std::uint64_t periods = generator();
+            contacts.push_back({static_cast<std::uint32_t>(bodies), static_cast<std::uint32_t>(bodies >> 32),
+                                static_cast<std::int32_t>(periods),
+                                static_cast<std::int32_t>(periods >> 32)});
+        }
     }
     if (seed % 5 != 0)
         c.run = RunRecord{
@@ -114,6 +127,9 @@ TEST(Checkpoint, ReadsBackBitForBit) {
         EXPECT_EQ(read.snapshot.scene_hash, written.snapshot.scene_hash);
         EXPECT_EQ(read.snapshot.last_collisions, written.snapshot.last_collisions);
         EXPECT_EQ(read.snapshot.accelerations, written.snapshot.accelerations);
+        EXPECT_EQ(read.snapshot.contacts, written.snapshot.contacts);
+        EXPECT_EQ(read.snapshot.counts.steps, written.snapshot.counts.steps);
+        EXPECT_EQ(read.snapshot.counts.missed_collisions, written.snapshot.counts.missed_collisions);
         EXPECT_EQ(read.run.has_value(), written.run.has_value());
     }
 }
@@ -155,15 +171,17 @@ TEST(Checkpoint, HasTheDocumentedBytes) {
 }
 
 TEST(Checkpoint, EveryFlippedBitIsRefused) {
-    std::string bytes = bytes_of(any_checkpoint(1, 3));
-    ASSERT_EQ(refusal(bytes), "");
-    for (std::size_t place = 0; place < bytes.size(); ++place)
-        for (int bit = 0; bit < 8; ++bit) {
-            const char whole = bytes[place];
-            bytes[place] = static_cast<char>(whole ^ (1 << bit));
-            ASSERT_NE(refusal(bytes), "") << "byte " << place << " bit " << bit;
-            bytes[place] = whole;
-        }
+    for (const std::uint64_t seed : {1, 5}) {  // without contacts and with them
+        std::string bytes = bytes_of(any_checkpoint(seed, 3));
+        ASSERT_EQ(refusal(bytes), "");
+        for (std::size_t place = 0; place < bytes.size(); ++place)
+            for (int bit = 0; bit < 8; ++bit) {
+                const char whole = bytes[place];
+                bytes[place] = static_cast<char>(whole ^ (1 << bit));
+                ASSERT_NE(refusal(bytes), "") << "byte " << place << " bit " << bit;
+                bytes[place] = whole;
+            }
+    }
 }
 
 TEST(Checkpoint, EveryOtherByteIsRefused) {
@@ -223,9 +241,10 @@ TEST(Checkpoint, ClaimsBeyondTheFileAreRefused) {
 // A checksum may be made to fit by somebody's own program: every such change is taken or refused, and none
 // ends the reader.
 TEST(Checkpoint, SealedNonsenseIsTakenOrRefused) {
-    const std::string bytes = bytes_of(any_checkpoint(1, 2));
+    const std::array<std::string, 2> sound = {bytes_of(any_checkpoint(1, 2)), bytes_of(any_checkpoint(5, 2))};
     Generator generator(7);
-    for (int trial = 0; trial < 20'000; ++trial) {
+    for (std::size_t trial = 0; trial < 20'000; ++trial) {
+        const std::string& bytes = sound[trial % 2];
         std::string changed = bytes;
         for (int change = 0; change < 3; ++change)
             changed[8 + testing_values::below(generator, bytes.size() - 16)] = static_cast<char>(generator());

@@ -232,11 +232,55 @@ TEST(Edits, FiltersLetBallsPass) {
     EXPECT_EQ(told[0].j, 2);
 }
 
-TEST(Edits, EmpiricalMethodTakesNone) {
-    Scene scene = lone({0, 0}, {1, 0});
+// By steps of 1 the balls, 1.5 apart, meet at 0.75. A step that ends at the edit finds that, and the steps go
+// on at whole seconds from there.
+TEST(Edits, EndAStepOfTheEmpiricalMethod) {
+    Scene scene;
     scene.method = Method::kEmpirical;
+    scene.step = 1;
+    scene.tolerance = 1e-12;
+    scene.balls = {{.position = {0, 0}, .velocity = {1, 0}, .radius = 0.5},
+                   {.position = {2.5, 0}, .velocity = {-1, 0}, .radius = 0.5},
+                   {.position = {0, 5}, .radius = 0.5}};
     World world(scene);
-    EXPECT_THROW(world.remove_ball(0), std::logic_error);
+    std::vector<double> told;
+    world.on_collision([&told](const Collision& c) { told.push_back(c.time); });
+    world.advance_to(0.8);
+    EXPECT_TRUE(told.empty()) << "it is found at the step's end";
+    world.set_velocity(2, {0, 1});
+    ASSERT_EQ(told.size(), 1);
+    EXPECT_NEAR(told[0], 0.75, 1e-11);
+    EXPECT_EQ(world.ball(0).velocity, Vec2(-1, 0));
+    EXPECT_NEAR(world.ball(0).position.x(), 0.7, 1e-11);
+    EXPECT_EQ(world.counts().steps, 1);
+    world.advance_to(3.5);
+    EXPECT_EQ(world.counts().steps, 4);
+    EXPECT_EQ(told.size(), 1);
+    EXPECT_NEAR(world.ball(0).position.x(), -2, 1e-11);
+    EXPECT_NEAR(world.ball(2).position.y(), 7.7, 1e-11);
+}
+
+// Refused, it ends no step and tells nobody.
+TEST(Edits, EndNoStepWhereTheyAreRefused) {
+    Scene scene = gas(3, {.count = 60, .packing = 0.4});
+    scene.method = Method::kEmpirical;
+    scene.step = 0.3;
+    World plain(scene);
+    World asked(scene);
+    std::vector<double> told;
+    asked.on_collision([&told](const Collision& c) { told.push_back(c.time); });
+    for (const double stop : {0.4, 0.75, 1.3}) {
+        asked.advance_to(stop);
+        const std::size_t before = told.size();
+        EXPECT_THROW(asked.set_position(7, asked.ball(8).position), SceneError);
+        EXPECT_THROW(asked.remove_ball(99), std::out_of_range);
+        EXPECT_EQ(told.size(), before);
+    }
+    plain.advance_to(2);
+    asked.advance_to(2);
+    EXPECT_EQ(asked.state_hash(), plain.state_hash());
+    EXPECT_EQ(asked.counts().steps, plain.counts().steps);
+    EXPECT_EQ(told.size(), plain.counts().ball_collisions);
 }
 
 /// One random edit, the same for worlds in the same state.
@@ -308,17 +352,25 @@ Outcome run_with_edits(const Scene& scene, const WorldOptions& options, std::uin
 }
 
 class EditedScenes : public testing::TestWithParam<NamedScene> {};
+class EditedSteps : public testing::TestWithParam<NamedScene> {};
 
-TEST_P(EditedScenes, SameBitsForThreadsDomainsCellsAndFrames) {
+void expect_same_bits_with_edits(const Scene& scene) {
     for (const std::uint64_t seed : {1, 2}) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
-        const Scene& scene = GetParam().scene;
         const Outcome one = run_with_edits(scene, {.threads = 1, .domains = 1}, seed, 0);
         EXPECT_GT(one.balls, 0);
         expect_equal(run_with_edits(scene, {.threads = 2, .domains = 5}, seed, 0), one);
         expect_equal(run_with_edits(scene, {.threads = 1, .cell_size = 2.9, .domains = 3}, seed, 0.07), one);
         expect_equal(run_with_edits(scene, {.threads = 1, .domains = 1}, seed, 0.013), one);
     }
+}
+
+TEST_P(EditedScenes, SameBitsForThreadsDomainsCellsAndFrames) {
+    expect_same_bits_with_edits(GetParam().scene);
+}
+
+TEST_P(EditedSteps, SameBitsForThreadsCellsAndFrames) {
+    expect_same_bits_with_edits(GetParam().scene);
 }
 
 // An edit that edits nothing is as good as none.
@@ -338,6 +390,7 @@ TEST_P(EditedScenes, EmptyEditChangesNoBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EditedScenes, testing::ValuesIn(feature_scenes()), kNameOfScene);
+INSTANTIATE_TEST_SUITE_P(All, EditedSteps, testing::ValuesIn(by_steps(feature_scenes())), kNameOfScene);
 
 // A world that starts from the edited one's balls goes the same way, as long as rounding has not grown: two
 // collisions a ball, each of which makes an error some ten times larger.

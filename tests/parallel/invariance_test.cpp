@@ -18,18 +18,6 @@ std::uint64_t hash_of(const Scene& scene, const WorldOptions& options,
     return world.state_hash();
 }
 
-/// Every scene under the empirical method, with steps of three kinds.
-std::vector<NamedScene> empirical_scenes() {
-    std::vector<NamedScene> all = all_scenes();
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        Scene& s = all[k].scene;
-        s.method = Method::kEmpirical;
-        if (k % 3 != 0) s.step = 0.07;
-        if (k % 3 == 2) s.max_travel = 0.1;
-    }
-    return all;
-}
-
 class Invariance : public testing::TestWithParam<NamedScene> {};
 
 TEST_P(Invariance, OfThreads) {
@@ -84,7 +72,7 @@ TEST_P(Invariance, OfReading) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::ValuesIn(all_scenes()), kNameOfScene);
-INSTANTIATE_TEST_SUITE_P(Empirical, Invariance, testing::ValuesIn(empirical_scenes()), kNameOfScene);
+INSTANTIATE_TEST_SUITE_P(Empirical, Invariance, testing::ValuesIn(by_steps(all_scenes())), kNameOfScene);
 
 TEST(StateHash, ChangesWithTheLastBitOfOneVelocity) {
     Scene scene = gas(1, {});

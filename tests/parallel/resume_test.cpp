@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cmath>
+#include <functional>
 
 #include <carom/parallel/world.hpp>
 
@@ -105,6 +106,8 @@ TEST_P(Resume, SnapshotsDoNotTellHowTheyWereReached) {
     EXPECT_EQ(a.virial.high, b.virial.high);
     EXPECT_EQ(a.virial.low, b.virial.low);
     EXPECT_EQ(a.last_collisions, b.last_collisions);
+    EXPECT_EQ(a.contacts.has_value(), GetParam().scene.method == Method::kEmpirical);
+    EXPECT_EQ(a.contacts, b.contacts);
     EXPECT_EQ(a.accelerations, b.accelerations);
     ASSERT_EQ(a.anchors.size(), b.anchors.size());
     for (std::size_t i = 0; i < a.anchors.size(); ++i) {
@@ -137,6 +140,7 @@ TEST_P(Resume, RestoreGoesBackInTheSameWorld) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Resume, testing::ValuesIn(all_scenes()), kNameOfScene);
+INSTANTIATE_TEST_SUITE_P(Empirical, Resume, testing::ValuesIn(by_steps(all_scenes())), kNameOfScene);
 
 TEST(SceneHash, TellsScenesApart) {
     const Scene scene = gas(1, {});
@@ -197,6 +201,52 @@ TEST(Restore, RefusesWhatIsNoStateOfTheScene) {
     refused([](Snapshot& s) { s.last_collisions[7] = {std::int64_t{1} << 40, 0}; });
     world.restore(good);
     EXPECT_EQ(world.state_hash(), hash);
+}
+
+// What a step has left overlapping is part of the state, and whatever a file may say of it is looked at.
+TEST(Restore, RefusesContactsThatCannotBe) {
+    Scene scene;
+    scene.method = Method::kEmpirical;
+    scene.step = 0.1;
+    scene.domain = Domain{{{0, 0}, {10, 10}}, {Boundary::kWall, Boundary::kPeriodic}};
+    scene.walls = {{{8, 1}, {8, 2}}};
+    // 0 and 1 overlap and part, 2 stands still, 3 is far.
+    scene.allows_overlap = true;
+    scene.balls = {{.position = {2, 2}, .velocity = {-0.01, 0}, .radius = 0.5},
+                   {.position = {2.9, 2}, .velocity = {0.01, 0}, .radius = 0.5},
+                   {.position = {2, 9.8}, .radius = 0.5, .is_static = true},
+                   {.position = {6, 6}, .radius = 0.5}};
+    World world(scene);
+    world.advance_to(0.25);
+    const Snapshot good = world.snapshot();
+    ASSERT_EQ(good.contacts, (std::vector<SavedContact>{{0, 1, 0, 0}}));
+    const std::uint64_t hash = world.state_hash();
+    for (const SavedContact& bad : std::vector<SavedContact>{{1, 0, 0, 0},   // not in order
+                                                             {0, 0, 0, 0},   // itself
+                                                             {2, 3, 0, 0},   // stands still
+                                                             {99, 1, 0, 0},  // not there
+                                                             {0, 3, 0, 0},   // apart
+                                                             {0, 1, 0, 1},   // apart, a period away
+                                                             {0, 1, 1, 0},   // the same, of no period
+                                                             {3, 4, 0, 0},   // apart from the wall
+                                                             {0, 7, 0, 0},   // a side that is no wall
+                                                             {0, 9, 0, 0},   // beyond the last side
+                                                             {0, 1, 1 << 30, -(1 << 30)}}) {
+        Snapshot s = good;
+        s.contacts->push_back(bad);
+        EXPECT_THROW(world.restore(s), SnapshotError) << bad.ball << " and " << bad.partner;
+        EXPECT_EQ(world.state_hash(), hash);
+    }
+    Snapshot at_times = good;
+    at_times.anchors[1].time.offset /= 2;
+    EXPECT_THROW(world.restore(at_times), SnapshotError);
+    for (auto&& change : std::vector<std::function<void(Scene&)>>{
+             [](Scene& s) { s.step = 0.11; }, [](Scene& s) { s.max_travel = 0.1; },
+             [](Scene& s) { s.tolerance = 1e-4; }, [](Scene& s) { s.method = Method::kEvent; }}) {
+        Scene other = scene;
+        change(other);
+        EXPECT_THROW(World(other, {}, good), SnapshotError);
+    }
 }
 
 // The energy is read over all periods passed, and the virial's sum is exact: neither starts anew.

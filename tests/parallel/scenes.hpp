@@ -228,4 +228,15 @@ inline std::vector<NamedScene> all_scenes() {
     return all;
 }
 
+/// The same scenes under the empirical method, with steps of three kinds.
+inline std::vector<NamedScene> by_steps(std::vector<NamedScene> scenes) {
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+        Scene& s = scenes[k].scene;
+        s.method = Method::kEmpirical;
+        if (k % 3 != 0) s.step = 0.07;
+        if (k % 3 == 2) s.max_travel = 0.1;
+    }
+    return scenes;
+}
+
 }  // namespace carom::test

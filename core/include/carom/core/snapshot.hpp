@@ -43,6 +43,16 @@ struct SavedSum {
     bool is_lost = false;  ///< it has become too large to be told
 };
 
+/// Two bodies that a step of the empirical method has left overlapping, numbered as an engine numbers them.
+struct SavedContact {
+    std::uint32_t ball = 0;     ///< a moving one; of two the smaller number
+    std::uint32_t partner = 0;  ///< a ball, a wall or a side of the domain
+    std::int32_t image_x = 0;   ///< periods from the partner's place to where it is touched
+    std::int32_t image_y = 0;
+
+    friend bool operator==(const SavedContact&, const SavedContact&) = default;
+};
+
 struct Cast;  // of parallel: who takes part in a world
 
 /// Predicted events are no part of it: they are functions of the anchors, and are found anew.
@@ -58,6 +68,9 @@ struct Snapshot {
     std::vector<Time>
         last_collisions;  ///< of the least epoch where there was none; empty where the contact time is 0
     std::vector<Vec2> accelerations;  ///< whole ones; empty where they do not differ from ball to ball
+    /// At the end of the empirical method's last step, which the anchors show; none where who overlaps is to
+    /// be looked for.
+    std::optional<std::vector<SavedContact>> contacts;
     /// Where edits have made the bodies others than the scene's: these, shared with the world; no file holds
     /// them.
     std::shared_ptr<const Cast> edited;

@@ -133,7 +133,6 @@ class World {
     /// All that the future depends on, at time(). What is gone on from it is what would have been, to the
     /// bit, for any options on either side: states, collisions and all that follows from them. Counts of the
     /// work alone (events, windows, retries, copies) go on from here but depend on how the work is done.
-    /// Throws SnapshotError where the method is empirical: that keeps none.
     [[nodiscard]] Snapshot snapshot() const;
     /// Puts the world where the snapshot has it, earlier or later. Throws SnapshotError where that is of
     /// another scene or method or holds what cannot be; the world stays as it was. Not to be called from a
@@ -159,9 +158,9 @@ class World {
     // ---- Edits. Each takes place at time() and is an event of the balls that it names: they start anew from
     // there. Walls and static balls that come, and changes of forces, are events of all balls. What is not
     // edited keeps its bits; the same edits at the same time give the same bits however the world is stepped
-    // and cut up. Nothing is changed where one throws: SceneError on values that no scene may have, and on
-    // what would overlap (unless the scene allows that); std::out_of_range on ids that are not there;
-    // std::logic_error where the method is empirical. Not to be called from a listener.
+    // and cut up. The empirical method ends a step there, for all balls. Nothing is changed where one throws:
+    // SceneError on values that no scene may have, and on what would overlap (unless the scene allows that);
+    // std::out_of_range on ids that are not there. Not to be called from a listener.
 
     /// All at once, at the cost of setting up a world of so many balls: one call with many is far cheaper
     /// than many with one.
