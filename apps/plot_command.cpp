@@ -98,7 +98,7 @@ void add_plot_command(CLI::App& app, int& status) {
         ->check(picture_path());
     command->add_option("--columns", options->columns, "Of tables: show these, not all")
         ->type_name("NAME,...")
-        ->expected(1)
+        ->expected(1, 64)
         ->delimiter(',');
     command->add_option("--until", options->until, "Of a scene: simulate to this time instead of the scene's")
         ->type_name("T")

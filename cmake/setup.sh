@@ -31,14 +31,16 @@ carom_install() {
         $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null
 }
 
-# carom_build PRESET [CMAKE-OPTION...]: configures and builds build/PRESET; shows the output only when something fails.
+# carom_build PRESET [CMAKE-OPTION...]: configures and builds build/PRESET; shows the output only when something fails. Where carom_target is
+# set that alone is built, and what it needs.
 carom_build() {
     preset=$1
     shift
     mkdir -p build
     log=build/$preset.log
-    echo "building build/$preset" >&2
-    if ! { cmake --preset "$preset" "$@" && cmake --build --preset "$preset"; } >"$log" 2>&1; then
+    [ -e "build/$preset/carom" ] && note="" || note=", which takes some minutes the first time; $log shows how far it is"
+    echo "building build/$preset$note" >&2
+    if ! { cmake --preset "$preset" "$@" && cmake --build --preset "$preset" --target "${carom_target:-all}"; } >"$log" 2>&1; then
         tail -n 60 "$log" >&2
         echo "error: the build failed; its whole output is in $log" >&2
         return 1

@@ -208,7 +208,7 @@ void Adviser::try_steps() {
     for (const Trial& t : advice_.trials)
         if (t.keeps && t.scene.precision == Precision::kDouble)
             rarest = std::max(rarest, t.scene.field_interval);
-    if (!(speed_ > 0)) return;
+    if (!(speed_ > 0) || !scene_.sensors.empty()) return;  // the empirical method knows no sensors
     scene.field_interval = rarest > 0 ? rarest : events_.back().scene.field_interval;
     if (try_ladder(scene) || rarest == 0 || scene_.attractors.empty()) return;
     scene.field_interval /= 2;

@@ -83,7 +83,7 @@ class Recorder {
                 maxwell.points.emplace_back(speed, maxwell_speed_density(speed));
             }
             panels.push_back({"speed / \u221a(T/m)",
-                              "share of balls",
+                              "density of speeds",
                               true,
                               {{"measured", points, false, true}, maxwell}});
         }

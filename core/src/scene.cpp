@@ -360,7 +360,7 @@ void check(const Scene& scene) {
     for (std::size_t i = 0; i < scene.attractors.size(); ++i) check(scene.attractors[i], i);
     for (std::size_t i = 0; i < scene.sensors.size(); ++i) check(scene.sensors[i], i);
     if (!scene.sensors.empty() && scene.method == Method::kEmpirical)
-        throw SceneError("sensors", "must be none where method is empirical");
+        throw SceneError("sensors", "must be none where method is empirical, which does not know them");
     if (scene.domain) check_widths(scene, *scene.domain);
 }
 

@@ -14,6 +14,16 @@
 namespace carom {
 namespace {
 
+/// What people do most often where a parser says this.
+std::string_view likely_cause(std::string_view rule) {
+    const auto says = [rule](std::string_view text) { return rule.find(text) != std::string_view::npos; };
+    const bool wants_end = rule.ends_with("expected '}'") || rule.ends_with("expected ']'");
+    if (wants_end && !says("end of input")) return " (is a comma missing before it?)";
+    if (says("unexpected '}'; expected string") || says("parsing value - unexpected ']'"))
+        return " (is there a comma too many before it?)";
+    return "";
+}
+
 /// Builds the values that the handlers want out of the parser's events.
 class Builder : public nlohmann::json_sax<Json> {
  public:
@@ -69,7 +79,7 @@ class Builder : public nlohmann::json_sax<Json> {
         if (const auto last_read = rule.find("; last read: "); last_read != std::string_view::npos)
             throw SceneError(where(position), fmt::format("{}{}", rule.substr(0, last_read + 13),
                                                           quotable(rule.substr(last_read + 13))));
-        throw SceneError(where(position), std::string(rule));
+        throw SceneError(where(position), fmt::format("{}{}", rule, likely_cause(rule)));
     }
 
  private:

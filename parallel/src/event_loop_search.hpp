@@ -311,6 +311,8 @@ void EventLoopOf<A>::tell_lower(std::uint32_t i) {
     if (const NextEvent event = records_[i].next; event.local != kNowhere && event.partner < records_[i].id &&
                                                   records_[event.local].anchor.stamp == event.stamp)
         tell(event.local, event);
+    // What comes later is not asked for, which spares most pairs the search for a root.
+    const NextEvent now{.time = time_now()};
     const auto is_told = [this, i](std::uint32_t j) { return records_[j].id < records_[i].id; };
     const CellCoordinates c = records_[i].anchor.cell;
     const std::int32_t across = cell_reach(bodies_.grid.x, i);
@@ -318,7 +320,7 @@ void EventLoopOf<A>::tell_lower(std::uint32_t i) {
     const bool is_everywhere = reaches_all(across, along);
     const auto tell_anywhere = [&](std::uint32_t j) {
         if (!is_told(j)) return;
-        NextEvent event;
+        NextEvent event = now;
         consider_images(i, j, event);
         tell_if_now(j, event);
     };
@@ -329,7 +331,7 @@ void EventLoopOf<A>::tell_lower(std::uint32_t i) {
                        [&](std::int32_t place, CellCoordinates cell) {
                            cells_.for_each(place, [&](std::uint32_t j) {
                                if (!is_told(j)) return;
-                               NextEvent event;
+                               NextEvent event = now;
                                consider_in_cell(i, j, cell, event);
                                tell_if_now(j, event);
                            });

@@ -204,6 +204,7 @@ std::uint64_t updates_until(double seconds, double interval) {
 }  // namespace
 
 Added World::State::apply(const Edits& edits) {
+    const Telling telling(*this);
     // A step of the empirical method ends where edits take place. Refused ones must end none, so another
     // engine does it first.
     std::unique_ptr<Engine> ahead;

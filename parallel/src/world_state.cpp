@@ -114,7 +114,14 @@ Snapshot World::State::snapshot_of(const Engine& e) const {
     return s;
 }
 
+World::State::Telling::Telling(State& state) : state_(state) {
+    if (state.is_telling_)
+        throw std::logic_error("a listener must not change the world; do it after the step");
+    state.is_telling_ = true;
+}
+
 void World::State::restore(const Snapshot& s) {
+    const Telling telling(*this);
     check(s);
     const std::shared_ptr<const Cast> next = s.edited ? s.edited : scene_cast;
     continue_with(next, make_from(*next, s), s);
@@ -233,6 +240,7 @@ void World::State::advance_to(double time) {
     if (!bodies().attractors.empty() && time > kMostFieldUpdates * field_interval)
         throw std::invalid_argument("time " + shown(time) +
                                     " is more than a thousand million of the scene's field_interval away");
+    const Telling telling(*this);
     forget();
     Time horizon = kNever;
     if (!bodies().attractors.empty()) {

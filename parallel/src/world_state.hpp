@@ -118,6 +118,19 @@ class World::State {
     std::vector<Sensor> sensors;
     std::function<void(const Sensing&)> sensing;
 
+    /// Holds while listeners may be told, who must not change the world. Throws std::logic_error where it is
+    /// held already.
+    class Telling {
+     public:
+        explicit Telling(State& state);
+        ~Telling() { state_.is_telling_ = false; }
+        Telling(const Telling&) = delete;
+        Telling& operator=(const Telling&) = delete;
+
+     private:
+        State& state_;
+    };
+
     /// To be called where sensors, who listens, or the time have changed otherwise than by going on.
     void watch_anew();
 
@@ -135,6 +148,7 @@ class World::State {
     /// Goes on with these bodies and an engine made from a snapshot of theirs.
     void continue_with(std::shared_ptr<const Cast> next, std::unique_ptr<Engine> made, const Snapshot& s);
 
+    bool is_telling_ = false;
     std::unique_ptr<SensorWatch> watch_;  // where somebody listens
     mutable std::mutex reading_;
     mutable bool is_read_ = false;

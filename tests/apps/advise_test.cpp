@@ -188,6 +188,15 @@ TEST(Advise, TableSaysWhatToRun) {
     EXPECT_THAT(result.out, HasSubstr("\n  carom run s.json --method "));
 }
 
+// Sensors change no bit, and steps, which know none, are not advised.
+TEST(Advise, OfASceneWithSensors) {
+    const Folder folder;
+    folder.write("s.json", with_keys(busy_scene("wall"), R"("sensors": [{"corners": [[5, 5], [9, 5]]}], )"));
+    const Json advice = advice_of(folder, {"--seconds", kTimeForAll, "--error", "0.5"});
+    for (const Json& s : advice["settings"]) EXPECT_EQ(s["method"], "event");
+    EXPECT_EQ(run_advised(folder, advice["command"], "--quiet").status, 0);
+}
+
 // Late in the scene: the same ball, later.
 TEST(Advise, FromALaterTime) {
     const Folder folder;

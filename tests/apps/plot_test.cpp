@@ -185,6 +185,8 @@ TEST(PlotCommand, RunsASceneDrawsTablesAndNamesMistakes) {
     };
     EXPECT_EQ(run({"s.json", "--out", "s.svg", "--until", "2", "--quiet"}).status, 0);
     EXPECT_EQ(run({"t.csv", "--columns", "b", "--out", "t.png"}).status, 0);
+    EXPECT_EQ(run({"t.csv", "--columns", "a,b", "--out", "t.svg"}).status, 0);
+    EXPECT_THAT(folder.read("t.svg"), testing::HasSubstr("<svg"));
     EXPECT_THAT(folder.read("s.svg"), testing::StartsWith("<?xml"));
     expect_one_error(run({"bad.csv", "--out", "x.svg"}), 1, "bad.csv: line 3 has 1 cells, the header 2");
     expect_one_error(run({"words.csv", "--out", "x.svg"}), 1, "words.csv: has no numbers to plot");
@@ -195,8 +197,8 @@ TEST(PlotCommand, RunsASceneDrawsTablesAndNamesMistakes) {
     expect_one_error(run({"t.csv", "s.json", "--out", "x.svg"}), 2, "one scene, or one or more tables");
     expect_one_error(run({"t.csv", "--out", "t.csv"}), 2, "unknown picture format '.csv'");
     expect_one_error(run({"s.json", "--columns", "a", "--out", "x.svg"}), 2, "belongs to tables");
-    EXPECT_THAT(folder.names(),
-                ElementsAre("bad.csv", "s.json", "s.svg", "t.csv", "t.png", "words.csv", "zero.csv"));
+    EXPECT_THAT(folder.names(), ElementsAre("bad.csv", "s.json", "s.svg", "t.csv", "t.png", "t.svg",
+                                            "words.csv", "zero.csv"));
 }
 
 }  // namespace

@@ -232,6 +232,23 @@ TEST(Edits, FiltersLetBallsPass) {
     EXPECT_EQ(told[0].j, 2);
 }
 
+TEST(Edits, AreRefusedFromAListener) {
+    World world(gas(3, {.count = 60, .packing = 0.4}), {.threads = 1});
+    const Snapshot start = world.snapshot();
+    int refused = 0;
+    world.on_collision([&](const Collision&) {
+        EXPECT_THROW(world.set_velocity(0, {1, 1}), std::logic_error);
+        EXPECT_THROW(world.step(1), std::logic_error);
+        EXPECT_THROW(world.restore(start), std::logic_error);
+        ++refused;
+    });
+    world.advance_to(1);
+    ASSERT_GT(refused, 0);
+    EXPECT_EQ(refused, world.counts().ball_collisions);
+    world.set_velocity(0, {1, 1});  // afterwards it is taken
+    EXPECT_EQ(world.ball(0).velocity, Vec2(1, 1));
+}
+
 // By steps of 1 the balls, 1.5 apart, meet at 0.75. A step that ends at the edit finds that, and the steps go
 // on at whole seconds from there.
 TEST(Edits, EndAStepOfTheEmpiricalMethod) {
