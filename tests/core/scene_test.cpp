@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(
               [](Scene& s) { s.sensors = {{{{0, 0}, {4, 0}, {1, 1}, {0, 4}}}}; }},
         Fault{"sensors[0].corners: must go once around a convex polygon, no three of them on one line",
               [](Scene& s) { s.sensors = {{{{0, 3}, {-2, -3}, {3, 1}, {-3, 1}, {2, -3}}}}; }},
-        Fault{"sensors: must be none where method is empirical",
+        Fault{"sensors: must be none where method is empirical, which does not know them",
               [](Scene& s) {
                   s.sensors = {{{{0, 0}}}};
                   s.method = Method::kEmpirical;
