@@ -79,13 +79,17 @@ struct SectionReader {
         (each(source, item), ...);
     }
     template <class T>
+    static void read(std::string_view content, std::vector<T>& all) {
+        all.resize(content.size() / size_of<T>());
+        Source source(content);
+        for (T& item : all) each(source, item);
+    }
+    template <class T>
     void list(std::string_view name, std::vector<T>& all) {
         const std::optional<std::string_view> content = find(name);
         if (!content) return;
         if (content->size() % size_of<T>() != 0 || content->size() / size_of<T>() != balls) fail(name);
-        all.resize(balls);
-        Source source(*content);
-        for (T& item : all) each(source, item);
+        read(*content, all);
     }
     template <class T>
     void optional(std::string_view name, std::optional<T>& item) {
@@ -100,9 +104,7 @@ struct SectionReader {
         const std::optional<std::string_view> content = find(name);
         if (!content) return;
         if (content->size() % size_of<T>() != 0) fail(name);
-        all.emplace(content->size() / size_of<T>());
-        Source source(*content);
-        for (T& item : *all) each(source, item);
+        read(*content, all.emplace());
     }
 };
 

@@ -297,9 +297,7 @@ void EmpiricalEngine::save(const Time&, Snapshot& snapshot) const {
     std::vector<SavedContact>& contacts = snapshot.contacts.emplace();
     for (const Meeting& m : lasting_)
         contacts.push_back({id_[m.pair.slot], m.pair.partner, m.pair.image.x, m.pair.image.y});
-    std::ranges::sort(contacts, {}, [](const SavedContact& c) {
-        return std::tuple(c.ball, c.partner, c.image_x, c.image_y);
-    });
+    std::ranges::sort(contacts);
 }
 
 void EmpiricalEngine::visit_flights(const Stop&, const Time&, const VisitFlights&) const {

@@ -2,6 +2,7 @@
 // can be derived from the scene. parallel's World gives and takes it, io writes it to files and reads it.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -50,7 +51,7 @@ struct SavedContact {
     std::int32_t image_x = 0;   ///< periods from the partner's place to where it is touched
     std::int32_t image_y = 0;
 
-    friend bool operator==(const SavedContact&, const SavedContact&) = default;
+    friend auto operator<=>(const SavedContact&, const SavedContact&) = default;
 };
 
 struct Cast;  // of parallel: who takes part in a world
