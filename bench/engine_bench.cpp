@@ -74,6 +74,29 @@ BENCHMARK(engine_frames)
     ->ArgNames({"balls", "threads"})
     ->ArgsProduct({{1000, 10000, 100000}, {1, 0}});
 
+// Frames as engine_frames' in which a player has a hand: one ball's velocity, edited in place, or its mass,
+// which makes the world anew.
+enum class Edit : std::int64_t { kNone, kVelocity, kMass };
+void engine_edited_frames(benchmark::State& state) {
+    constexpr double kPacking = 0.3;
+    const auto balls = static_cast<std::uint32_t>(state.range(0));
+    World world(gas_scene(balls, kPacking), on_threads(state.range(1)));
+    world.step(kWarmUp * mean_free_time(kPacking));
+    std::uint32_t ball = 0;
+    for ([[maybe_unused]] const auto _ : state) {
+        ball = (ball + 7919) % balls;
+        if (state.range(2) == static_cast<std::int64_t>(Edit::kVelocity)) world.set_velocity(ball, {1, 1});
+        if (state.range(2) == static_cast<std::int64_t>(Edit::kMass)) world.set_mass(ball, 1);
+        world.step(mean_free_time(kPacking) / 100);
+    }
+}
+BENCHMARK(engine_edited_frames)
+    ->Unit(benchmark::kMicrosecond)
+    ->UseRealTime()
+    ->Iterations(50)
+    ->ArgNames({"balls", "threads", "edit"})
+    ->ArgsProduct({{1000, 10000, 100000}, {1, 2}, {0, 1, 2}});
+
 // Reading all positions, in balls a second.
 void engine_read_positions(benchmark::State& state) {
     World world(gas_scene(static_cast<std::uint64_t>(state.range(0)), 0.3));

@@ -154,13 +154,15 @@ class View {
         return selection_ == nullptr || (j < selection_->walls.size() && selection_->walls[j] != 0);
     }
     [[nodiscard]] std::string ball(std::size_t i) const {
-        return fmt::format("balls[{}]", selection_ == nullptr ? i : selection_->ball_ids[i]);
+        return fmt::format(
+            "balls[{}]", selection_ == nullptr || selection_->ball_ids.empty() ? i : selection_->ball_ids[i]);
     }
     /// Of a wall, or after `count` walls of a side.
     [[nodiscard]] std::string wall(std::size_t j, std::size_t count) const {
         constexpr std::array<const char*, 4> kSides = {"left", "right", "lower", "upper"};
         if (j >= count) return fmt::format("the domain's {} side", kSides[j - count]);
-        return fmt::format("walls[{}]", selection_ == nullptr ? j : selection_->wall_ids[j]);
+        return fmt::format(
+            "walls[{}]", selection_ == nullptr || selection_->wall_ids.empty() ? j : selection_->wall_ids[j]);
     }
 
  private:
@@ -252,7 +254,37 @@ void check_overlaps(const std::vector<Ball>& balls, const Scene& scene) {
 }
 
 void check_overlaps(const std::vector<Ball>& balls, const Scene& scene, const Selection& selection) {
-    check_overlaps(balls, scene, View(&selection));
+    // Where few are selected, what is not near them need not be put in order.
+    constexpr std::size_t kFew = 16;
+    std::vector<Ball> few;
+    for (std::size_t i = 0; i < balls.size() && few.size() <= kFew; ++i)
+        if (selection.balls[i] != 0) few.push_back(balls[i]);
+    if (few.size() > kFew || std::ranges::count(selection.walls, 0) != std::ssize(selection.walls))
+        return check_overlaps(balls, scene, View(&selection));
+
+    const std::array<Axis, 2> axes = detail::axes_of(scene);
+    const auto is_near = [&axes](const Ball& a, const Ball& b) {
+        constexpr double kRounding = 1e-9;
+        const double reach = (1 + kRounding) * (a.radius + b.radius);
+        const auto is_within = [&](int k) {
+            const Axis& axis = axes[static_cast<std::size_t>(k)];
+            const double x = axis.wrapped(a.position[k]);
+            const double y = axis.wrapped(b.position[k]);
+            const double apart = axis.period > 0 ? axis.nearest(x - y) : x - y;
+            return std::abs(apart) <= reach + kRounding * (std::abs(x) + std::abs(y));
+        };
+        return is_within(0) && is_within(1);
+    };
+    std::vector<Ball> near;
+    Selection of_near{.walls = selection.walls, .wall_ids = selection.wall_ids};
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        if (std::ranges::none_of(few, [&](const Ball& ball) { return is_near(ball, balls[i]); })) continue;
+        near.push_back(balls[i]);
+        of_near.balls.push_back(selection.balls[i]);
+        of_near.ball_ids.push_back(selection.ball_ids.empty() ? static_cast<std::uint32_t>(i)
+                                                              : selection.ball_ids[i]);
+    }
+    check_overlaps(near, scene, View(&of_near));
 }
 
 double max_overlap(const std::vector<Ball>& balls, const Scene& scene) {

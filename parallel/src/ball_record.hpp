@@ -22,6 +22,9 @@ static_assert(sizeof(Anchor) == 64);
 
 inline constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
 
+/// The time of a next event that has not been looked for.
+inline constexpr Time kUnknown{-1, 0};
+
 /// What a ball will meet next as far as is known.
 struct NextEvent {
     Time time = kNever;

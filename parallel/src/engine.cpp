@@ -50,6 +50,16 @@ class SerialEngine final : public Engine {
         loop_->predict_all(&executor_);
         counts_.events = loop_->events;
     }
+    bool start_anew(const Time& t, std::span<const NewStart> starts) override {
+        // The loop has the balls in the order of their ids.
+        std::vector<NewStart> here(starts.begin(), starts.end());
+        for (NewStart& start : here) {
+            const auto at = std::ranges::lower_bound(loop_->records(), start.ball, {}, &BallRecord::id);
+            start.ball = static_cast<std::uint32_t>(at - loop_->records().begin());
+        }
+        loop_->start_anew(t, here);
+        return true;
+    }
     void read(const Time& t, std::span<BallState> states) const override {
         executor_.for_ranges(loop_->size(), 4096, [&](std::size_t first, std::size_t last) {
             for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)

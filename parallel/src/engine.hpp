@@ -41,6 +41,9 @@ class Engine {
     virtual void advance_to(const Time& end, const Time& horizon) = 0;
     /// Anchors every ball at `t`, up to which all has been advanced, with the field's new acceleration.
     virtual void renew_field(const Time& t) = 0;
+    /// Starts balls anew at `t`, the time advanced to last, none twice. False where the engine has no such
+    /// way, and nothing is done.
+    [[nodiscard]] virtual bool start_anew(const Time& t, std::span<const NewStart> starts) = 0;
     /// The moving balls' states at `t`, the time advanced to last: states[id].
     virtual void read(const Time& t, std::span<BallState> states) const = 0;
     /// The numbers of the domains that own the moving balls: domains[id]. Left alone where there is one loop.

@@ -107,6 +107,11 @@ void EventLoop::touch(const CellCoordinates& cell) {
 template <Acceleration A>
 void EventLoopOf<A>::start() {
     sight_all();
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        if (records_[i].next.time != kUnknown) continue;
+        records_[i].next = search(i);
+        predict_crossing(i);
+    }
     begin();
 }
 
@@ -122,6 +127,23 @@ void EventLoopOf<A>::renew_field(const Time& t) {
                 bodies_.acceleration_at(records_[i].id, {records_[i].anchor.x, records_[i].anchor.y});
         }
     }
+}
+
+template <Acceleration A>
+void EventLoopOf<A>::start_anew(const Time& t, std::span<const NewStart> starts) {
+    for (const NewStart& start : starts) {
+        const std::uint32_t i = start.ball;
+        BallRecord& r = records_[i];
+        keep_anchor(i);
+        carom::start_anew(bodies_, r.anchor, r.periods, acceleration_of(i), t, start);
+        locals_[i].frame = region_.frame_of(r.anchor.cell);
+        if constexpr (A == Acceleration::kPerBall)
+            acceleration_[i] = bodies_.acceleration_at(r.id, {r.anchor.x, r.anchor.y});
+        settle(i);
+        predict_crossing(i);
+    }
+    // All have their new ways before any looks around.
+    for (const NewStart& start : starts) expect(start.ball, search(start.ball));
 }
 
 template <Acceleration A>
@@ -170,6 +192,17 @@ Collision collision_of(const Bodies& bodies, double seconds, std::uint32_t id, s
             hit.normal,
             hit.impulse,
             hit.approach_speed};
+}
+
+void start_anew(const Bodies& bodies, Anchor& anchor, Periods& periods, const Vec2& acceleration,
+                const Time& t, const NewStart& start) {
+    const Motion<double> way = motion_since(bodies, anchor, acceleration);
+    const double since = bodies.physics.clock.difference(t, anchor.time);
+    Vec2 place = bodies.held_position(position_at(way, since), periods);
+    if (start.position) place = bodies.held_position(*start.position, periods);
+    const Vec2 velocity = bodies.held_velocity(start.velocity ? *start.velocity : velocity_at(way, since));
+    anchor = {place.x(), place.y(),    velocity.x(), velocity.y(),
+              t,         anchor.stamp, anchor.place, bodies.grid.coordinates(place)};
 }
 
 Motion<double> motion_since(const Bodies& bodies, const Anchor& anchor, const Vec2& acceleration) {

@@ -22,6 +22,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,6 +71,16 @@ struct OverwrittenAnchor {
     std::uint32_t previous = kNowhere;
 };
 
+/// A ball that starts anew: elsewhere, at another velocity, or both.
+struct NewStart {
+    std::uint32_t ball = 0;
+    std::optional<Vec2> position = {};
+    std::optional<Vec2> velocity = {};
+};
+/// Anchors it at `t`.
+void start_anew(const Bodies& bodies, Anchor& anchor, Periods& periods, const Vec2& acceleration,
+                const Time& t, const NewStart& start);
+
 /// A ball that has come to another cell.
 struct Visit {
     std::uint32_t ball = 0;
@@ -91,7 +102,7 @@ class EventLoop {
     void suggest_partner(std::uint32_t i, std::uint32_t j) {
         if (records_[i].next.partner == records_[j].id) records_[i].next.local = j;
     }
-    /// Takes the balls' next events as they are.
+    /// Takes the balls' next events as they are, and finds those that are not known.
     virtual void start() = 0;
     /// Predicts all of them anew.
     virtual void predict_all(const Executor* executor) = 0;
@@ -103,6 +114,9 @@ class EventLoop {
     /// Anchors every ball at `t`, no event being left before it, with a new acceleration: gravity, its own
     /// and the field's. Call predict_all() next.
     virtual void renew_field(const Time& t) = 0;
+    /// Anchors balls at `t` by new starts, no event being left up to it; by their place in the loop, none
+    /// twice. Precondition: the region is the whole plane.
+    virtual void start_anew(const Time& t, std::span<const NewStart> starts) = 0;
 
     // ---- Reading.
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(records_.size()); }

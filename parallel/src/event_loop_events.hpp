@@ -194,6 +194,15 @@ std::uint32_t EventLoopOf<A>::find_beside(std::uint32_t i, std::uint32_t id, boo
     return found;
 }
 
+/// Notes a ball's anchor, that is about to be overwritten.
+template <Acceleration A>
+void EventLoopOf<A>::keep_anchor(std::uint32_t i) {
+    if (!keeps_anchors || !is_owned(i)) return;
+    const Anchor& a = records_[i].anchor;
+    overwritten.push_back({a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, locals_[i].last_overwritten});
+    locals_[i].last_overwritten = static_cast<std::uint32_t>(overwritten.size() - 1);
+}
+
 /// Anchors a ball at `t`, wrapped into the box. Gives the periods that the wrapping took away.
 template <Acceleration A>
 auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
@@ -201,11 +210,7 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     const double since = clock_.difference(t, a.time);
     const Motion<double> m = motion_of(i);
     const Vec2 v = bodies_.held_velocity(velocity_at(m, since));
-    if (keeps_anchors && is_owned(i)) {
-        overwritten.push_back(
-            {a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, locals_[i].last_overwritten});
-        locals_[i].last_overwritten = static_cast<std::uint32_t>(overwritten.size() - 1);
-    }
+    keep_anchor(i);
     const Grid& grid = bodies_.grid;
     Periods wrapped;
     const Vec2 inside = bodies_.held_position(position_at(m, since), wrapped);
@@ -216,8 +221,8 @@ auto EventLoopOf<A>::advance(std::uint32_t i, const Time& t) -> Image {
     a.time = t;
     records_[i].periods.x += wrapped.x;
     records_[i].periods.y += wrapped.y;
-    locals_[i].frame.x += wrapped.x * grid.x.count();
-    locals_[i].frame.y += wrapped.y * grid.y.count();
+    locals_[i].frame.x = region_.x.frame_after(locals_[i].frame.x, wrapped.x * grid.x.count());
+    locals_[i].frame.y = region_.y.frame_after(locals_[i].frame.y, wrapped.y * grid.y.count());
     return {wrapped.x, wrapped.y};
 }
 

@@ -23,6 +23,7 @@ class EventLoopOf final : public EventLoop {
     void predict_all(const Executor* executor) override;
     void advance_to(const Time& end, bool inclusive) override;
     void renew_field(const Time& t) override;
+    void start_anew(const Time& t, std::span<const NewStart> starts) override;
     void audit(std::vector<Violation>& found) const override;
 
  private:
@@ -131,6 +132,7 @@ class EventLoopOf final : public EventLoop {
     void pass_on_notes();
     void collide_pair(std::uint32_t i, std::uint32_t j, Image image, const Time& t);
     void collide_obstacle(std::uint32_t i, const NextEvent& event);
+    void keep_anchor(std::uint32_t i);
     Image advance(std::uint32_t i, const Time& t);
     void settle(std::uint32_t i);
     [[nodiscard]] Vec2 centres_offset(std::uint32_t i, std::uint32_t j, Image image) const;

@@ -58,6 +58,11 @@ class RegionAxis {
         if (!periodic_) return 0;
         return is_window_ ? reach_.first + folded(k - reach_.first, count_) - k : folded(k, count_) - k;
     }
+    /// The same for a ball whose anchor has been wrapped by so many cells. Where the axis is whole every
+    /// frame will do, and the box's own keeps the ball near, however often it goes round.
+    [[nodiscard]] std::int32_t frame_after(std::int32_t frame, std::int32_t wrapped) const {
+        return is_whole_period() ? 0 : frame + wrapped;
+    }
     /// Whether a coordinate in the region's frame lies in it.
     [[nodiscard]] bool contains(std::int32_t k) const {
         return (periodic_ && !is_window_) || reach_.contains(k);

@@ -102,6 +102,12 @@ void WindowedEngine::take_results(DomainState& d) const {
     std::swap(d.records, d.results);
     std::swap(d.extras, d.result_extras);
     std::swap(d.cells, d.result_cells);
+    index_records(d);
+    d.histories.assign(d.records.size(), 0);
+}
+
+/// Where the records are, by their cells.
+void WindowedEngine::index_records(DomainState& d) const {
     d.cells_x = d.cells_y = {GridAxis::kFarthest, -GridAxis::kFarthest};
     d.near_border.clear();
     const auto is_near = [this](const Span& own, std::int32_t k) {
@@ -113,7 +119,6 @@ void WindowedEngine::take_results(DomainState& d) const {
         d.cells_x = {std::min(d.cells_x.first, c.x), std::max(d.cells_x.last, c.x + 1)};
         d.cells_y = {std::min(d.cells_y.first, c.y), std::max(d.cells_y.last, c.y + 1)};
     }
-    d.histories.assign(d.records.size(), 0);
 }
 
 }  // namespace carom

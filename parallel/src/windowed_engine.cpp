@@ -160,8 +160,9 @@ void WindowedEngine::next_window(const Time& wanted, const Time& horizon) {
         const bool gives_up = shortenings > kMostShortenings || (shortenings > 0 && window_length_ <= least);
         Time end = clock.after(window_start_, window_length_);
         if (end.epoch > window_start_.epoch) end = {window_start_.epoch + 1, 0};
-        window_is_closed_ = end >= horizon;
-        if (window_is_closed_) end = horizon;
+        const Time& last = cuts_windows_ ? std::min(wanted, horizon) : horizon;
+        window_is_closed_ = end >= last;
+        if (window_is_closed_) end = last;
         const double length = clock.difference(end, window_start_);
         const bool agreed = !gives_up && try_window(end, window_is_closed_);
         try {

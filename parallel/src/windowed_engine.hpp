@@ -37,6 +37,7 @@ class WindowedEngine final : public Engine {
 
     void advance_to(const Time& end, const Time& horizon) override;
     void renew_field(const Time& t) override;
+    bool start_anew(const Time& t, std::span<const NewStart> starts) override;
     void read(const Time& t, std::span<BallState> states) const override;
     void read_domains(std::span<std::uint32_t> domains) const override;
     void save(const Time& t, Snapshot& snapshot) const override;
@@ -81,6 +82,7 @@ class WindowedEngine final : public Engine {
     void split_anew();
     void index_results(DomainState& d) const;
     void take_results(DomainState& d) const;
+    void index_records(DomainState& d) const;
     void add_residents(std::uint32_t self, const Region& region, Workshop& w) const;
     void pack(std::uint32_t from, const Region& region, std::int32_t halo,
               std::vector<BallMessage>& message) const;
@@ -137,6 +139,8 @@ class WindowedEngine final : public Engine {
     Time window_end_;                // >= now_
     bool in_window_ = false;         // whether results are there
     bool window_is_closed_ = false;  // whether events at window_end_ are resolved
+    bool is_edited_ = false;         // since it was advanced last
+    bool cuts_windows_ = false;      // whether a window ends where the world stops: edits are to be expected
     double window_length_;
     std::uint64_t disagreeing_ = 0;  // domains that had to go through the present window again
     double growth_;

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 #include "windowed_engine.hpp"
 
 namespace carom {
 
 void WindowedEngine::advance_to(const Time& end, const Time& horizon) {
+    cuts_windows_ = std::exchange(is_edited_, false);
     while (!in_window_ || window_end_ < end || (window_end_ == end && !window_is_closed_)) {
         if (in_window_) tell_until({window_end_, window_is_closed_});
         next_window(end, horizon);
@@ -79,6 +81,34 @@ void WindowedEngine::renew_field(const Time& t) {
     commit();
     window_start_ = t;
     predict_anew(true);
+}
+
+bool WindowedEngine::start_anew(const Time& t, std::span<const NewStart> starts) {
+    rewind_to_now();
+    commit();
+    window_start_ = t;
+    is_edited_ = true;
+    std::vector<std::uint32_t> start_of(bodies_.count, kNowhere);
+    for (std::uint32_t k = 0; k < starts.size(); ++k) start_of[starts[k].ball] = k;
+    for_each_domain([&](std::size_t k) {
+        DomainState& d = domains_[k];
+        bool has_some = false;
+        for (std::size_t i = 0; i < d.records.size(); ++i) {
+            BallRecord& r = d.records[i];
+            if (start_of[r.id] == kNowhere) continue;
+            has_some = true;
+            carom::start_anew(bodies_, r.anchor, r.periods,
+                              d.extras.empty() ? Vec2(Vec2::Zero()) : d.extras[i].acceleration, t,
+                              starts[start_of[r.id]]);
+            ++r.anchor.stamp;
+            r.next = {.time = kUnknown};  // the domains find it when they have their copies
+            d.cells[i] = fold_periodic(bodies_.grid, r.anchor.cell);
+            if (bodies_.accelerates_each())
+                d.extras[i].acceleration = bodies_.acceleration_at(r.id, {r.anchor.x, r.anchor.y});
+        }
+        if (has_some) index_records(d);
+    });
+    return true;
 }
 
 WindowedEngine::Past WindowedEngine::past_of(const DomainState& d, std::size_t i, const Time& t) const {
@@ -170,7 +200,7 @@ void WindowedEngine::audit(std::vector<Violation>& found) const {
 
 /// Back to the time that the world sees: what lies ahead of it is forgotten.
 void WindowedEngine::rewind_to_now() {
-    if (!in_window_) return;
+    if (!in_window_ || (window_end_ == now_ && window_is_closed_)) return;
     // The window again, up to now only; its events are counted and told already.
     run_together(now_, true);
     for (DomainState& d : domains_) {

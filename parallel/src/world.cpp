@@ -122,7 +122,7 @@ std::optional<double> World::compressibility_factor() const {
     const Domain& d = domain();
     if (d.boundary[0] != Boundary::kPeriodic || d.boundary[1] != Boundary::kPeriodic || !(time() > 0))
         return std::nullopt;
-    if (!state_->cast->in_equilibrium) return std::nullopt;
+    if (state_->is_edited || !state_->cast->in_equilibrium) return std::nullopt;
     const double moving = state_->bodies().moving;
     const double kinetic = kinetic_energy();
     if (moving < 2 || !(kinetic > 0)) return std::nullopt;
@@ -171,7 +171,7 @@ std::vector<Violation> World::validate() const {
 }
 
 std::uint64_t World::scene_hash() const {
-    return state_->cast->hash;
+    return state_->hash;
 }
 
 Snapshot World::snapshot() const {

@@ -2,6 +2,7 @@
 // keeps its anchor, so that nothing of its way changes but by what it meets.
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include <carom/broadphase/overlap.hpp>
@@ -201,10 +202,70 @@ std::uint64_t updates_until(double seconds, double interval) {
     return updates;
 }
 
+/// Whether edits change no more than where balls are and how they move.
+bool are_new_starts(const Edits& edits) {
+    const auto is_start = [](const BallChange& c) {
+        return !c.acceleration && !c.radius && !c.mass && !c.restitution && !c.filter;
+    };
+    return edits.removed_balls.empty() && edits.added_balls.empty() && edits.removed_walls.empty() &&
+           edits.added_walls.empty() && !edits.attractors && !edits.gravity &&
+           std::ranges::all_of(edits.changed_balls, is_start);
+}
+
 }  // namespace
+
+bool World::State::start_anew(const Edits& edits) {
+    // Where all were at rest there may be losses without a contact time, until something moves.
+    const Physics& physics = bodies().physics;
+    const bool may_get_contact_time =
+        physics.loses_energy && physics.contact_time == 0 && !cast->rules.contact_time;
+    if (!are_new_starts(edits) || cast->rules.allows_overlap || may_get_contact_time) return false;
+    std::map<std::uint32_t, BallChange> changes;  // by index; of two of one ball the later one counts
+    for (const BallChange& c : edits.changed_balls) {
+        const std::uint32_t i = index_of_ball(c.id);
+        if (bodies().fixes(i)) return false;
+        if (!c.position && !c.velocity) continue;
+        BallChange& change = changes.try_emplace(i, BallChange{.id = c.id}).first->second;
+        if (c.position) change.position = c.position;
+        if (c.velocity) change.velocity = c.velocity;
+    }
+    Members<Ball> members;
+    std::vector<NewStart> starts;
+    for (const auto& [i, c] : changes) {
+        Member<Ball>& m = members.emplace_back();
+        m = {c.id, i, false, false, false, ball(i, states()[i])};
+        change(m, c);
+        starts.push_back({i, c.position, c.velocity});
+    }
+    check_edited(members, {}, edits, cast->rules);
+    for (const Member<Ball>& m : members)  // may be refused as well, and nothing is half done
+        static_cast<void>(bodies().acceleration_at(m.was, m.body.position));
+    const bool has_moves = std::ranges::any_of(members, &Member<Ball>::is_placed);
+    if (has_moves) {
+        std::vector<Ball> all = balls();
+        Selection placed{std::vector<std::uint8_t>(size(), 0), {}, bodies().ball_ids, bodies().wall_ids};
+        for (const Member<Ball>& m : members) {
+            all[m.was] = m.body;
+            placed.balls[m.was] = m.is_placed ? 1 : 0;
+        }
+        check_overlaps(all, cast->rules, placed);
+    }
+    if (!engine->start_anew(now, starts)) return false;
+
+    is_edited = true;
+    Hash edited{hash};
+    for (const Member<Ball>& m : members) edited << std::uint64_t{m.id} << m.body.position << m.body.velocity;
+    hash = (edited << seconds).value;
+    if (has_moves) forget();
+    for (const Member<Ball>& m : members)
+        if (is_read_) states_[m.was].velocity = bodies().held_velocity(m.body.velocity);
+    if (watch_) watch_->take(*engine, {now}, sensing);
+    return true;
+}
 
 Added World::State::apply(const Edits& edits) {
     const Telling telling(*this);
+    if (start_anew(edits)) return {};
     // A step of the empirical method ends where edits take place. Refused ones must end none, so another
     // engine does it first.
     std::unique_ptr<Engine> ahead;
@@ -237,7 +298,9 @@ Added World::State::apply(const Edits& edits) {
     if (edits.attractors) rules.attractors = *edits.attractors;
     if (edits.gravity) rules.gravity = *edits.gravity;
     check_edited(balls, walls, edits, rules);
-    if (!rules.allows_overlap) {
+    const auto is_placed = [](const auto& member) { return member.is_placed; };
+    if (!rules.allows_overlap &&
+        (std::ranges::any_of(balls, is_placed) || std::ranges::any_of(walls, is_placed))) {
         Selection selected{{}, {}, ids_of(balls), ids_of(walls)};
         for (const Member<Ball>& m : balls) selected.balls.push_back(m.is_placed ? 1 : 0);
         for (const Member<Wall>& m : walls) selected.walls.push_back(m.is_placed ? 1 : 0);
@@ -253,12 +316,8 @@ Added World::State::apply(const Edits& edits) {
     auto next = std::make_shared<Cast>(rules, physics, now_there, wanted.cell_size);
     next->bodies.ball_ids = needed(ids_of(balls));
     next->bodies.wall_ids = needed(ids_of(walls));
-    next->is_edited = true;
-    next->in_equilibrium = false;  // what was counted until now is of another gas
     next->deepest_overlap = std::max(next->deepest_overlap, cast->deepest_overlap);
-    next->hash_of_scene = cast->hash_of_scene;
-    next->hash =
-        (Hash{cast->hash} << carom::scene_hash(rules, physics, now_there, executor) << seconds).value;
+    next->scene_hash = cast->scene_hash;
     // What is hit where it stands is hit by flights that start before it stood there, and other forces bend
     // all flights: then all balls start anew.
     const auto is_new_obstacle = [](const Member<Ball>& m) { return m.is_placed && m.body.is_static; };
@@ -277,7 +336,8 @@ Added World::State::apply(const Edits& edits) {
             carrier.keep(m.was);
     }
     Snapshot s = carrier.take();
-    s.scene_hash = next->hash;
+    s.scene_hash = (Hash{hash} << carom::scene_hash(rules, physics, now_there, executor) << seconds).value;
+    s.edited = next;
     s.field_updates = rules.attractors.empty() ? 0 : updates_until(seconds, rules.field_interval);
     std::unique_ptr<Engine> made = make_from(*next, s);
     if (ahead) engine->advance_to(now, now);  // and whoever listens is told

@@ -94,7 +94,7 @@ World::State::State(const Scene& scene, const WorldOptions& options, const Snaps
     const std::vector<Ball> balls = place_checked(scene);
     const Physics physics = derive_physics(scene, balls);
     auto first = std::make_shared<Cast>(rules_of(scene), physics, balls, options.cell_size);
-    first->hash = first->hash_of_scene = carom::scene_hash(first->rules, physics, balls, executor);
+    hash = first->scene_hash = carom::scene_hash(first->rules, physics, balls, executor);
     cast = scene_cast = first;
     if (snapshot != nullptr)
         restore(*snapshot);
@@ -104,12 +104,12 @@ World::State::State(const Scene& scene, const WorldOptions& options, const Snaps
 
 Snapshot World::State::snapshot_of(const Engine& e) const {
     Snapshot s;
-    s.scene_hash = cast->hash;
+    s.scene_hash = hash;
     s.time = seconds;
     s.field_updates = field_updates;
     s.counts = e.counts();
     s.virial = e.saved_virial();
-    if (cast->is_edited) s.edited = cast;
+    if (is_edited) s.edited = cast;
     e.save(now, s);
     return s;
 }
@@ -133,7 +133,7 @@ void World::State::check(const Snapshot& s) const {
     if (s.method != (physics.empirical ? "empirical" : "event"))
         throw SnapshotError("is of the method '" + s.method + "'");
     const Cast& of = s.edited ? *s.edited : *scene_cast;
-    if (of.hash != s.scene_hash || of.hash_of_scene != scene_cast->hash_of_scene)
+    if ((s.edited ? of.scene_hash : s.scene_hash) != scene_cast->scene_hash)
         throw SnapshotError("is of another scene");
     if (!(s.time >= 0) || physics.clock.from_seconds(s.time) == kNever)
         throw SnapshotError("is at no time that the scene comes to");
@@ -150,6 +150,8 @@ void World::State::continue_with(std::shared_ptr<const Cast> next, std::unique_p
     engine = std::move(made);
     if (watch_) follow_flights();
     cast = std::move(next);
+    hash = s.scene_hash;
+    is_edited = s.edited != nullptr;
     field_updates = s.field_updates;
     seconds = s.time;
     now = bodies().physics.clock.from_seconds(seconds);

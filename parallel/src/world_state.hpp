@@ -21,16 +21,14 @@
 
 namespace carom {
 
-/// Who takes part, and by which rules. Never changed: an edit makes another.
+/// Who takes part, and by which rules. Never changed: an edit of either makes another.
 struct Cast {
     Cast(Scene rules, const Physics& physics, const std::vector<Ball>& balls, double cell_size);
 
     Scene rules;  ///< without balls and fills
     Bodies bodies;
-    std::uint64_t hash = 0;           ///< of the scene; of what edits have made of it
-    std::uint64_t hash_of_scene = 0;  ///< at the beginning
-    bool is_edited = false;
-    /// Neither losses nor forces, so that one temperature holds throughout.
+    std::uint64_t scene_hash = 0;  ///< of the scene with which it all began
+    /// Neither losses nor forces, so that one temperature holds until there are edits.
     bool in_equilibrium = false;
     double deepest_overlap = 0;  ///< at the beginning or after edits, where overlaps are allowed
     std::vector<std::pair<std::uint32_t, BallState>> fixed_states;
@@ -107,7 +105,9 @@ class World::State {
     WorldOptions wanted;
     Executor executor;
     std::shared_ptr<const Cast> scene_cast;  // the scene's
-    std::shared_ptr<const Cast> cast;        // the same until there are edits
+    std::shared_ptr<const Cast> cast;        // the same until edits make another
+    std::uint64_t hash = 0;                  // of the scene; of what edits have made of it
+    bool is_edited = false;
     std::function<void(const Collision&)> listener;
     std::unique_ptr<Engine> engine;
     std::uint64_t field_updates = 0;
@@ -136,6 +136,9 @@ class World::State {
 
  private:
     void check(const Snapshot& s) const;
+    /// Does edits that change no more than where balls are and how they move, in place; false where they
+    /// change more, or the engine has no such way.
+    bool start_anew(const Edits& edits);
     /// Lets the watch, which is there, see what the engine does.
     void follow_flights();
     /// What has been read is of the past.

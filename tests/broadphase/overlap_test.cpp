@@ -73,9 +73,13 @@ void expect_same(const std::vector<Overlap>& found, const std::vector<Overlap>& 
     }
 }
 
-std::string refusal(const std::vector<Ball>& balls, const Scene& scene) {
+std::string refusal(const std::vector<Ball>& balls, const Scene& scene,
+                    const Selection* selection = nullptr) {
     try {
-        check_overlaps(balls, scene);
+        if (selection != nullptr)
+            check_overlaps(balls, scene, *selection);
+        else
+            check_overlaps(balls, scene);
     } catch (const SceneError& error) {
         return error.what();
     }
@@ -169,6 +173,45 @@ TEST(Overlap, FirstPairIsTheSmallestOfAll) {
             "balls[" + std::to_string(all[0].i) + "]: overlaps balls[" + std::to_string(all[0].j) + "] ";
         EXPECT_THAT(refusal(balls, scene), testing::StartsWith(start));
     }
+}
+
+// Few that are selected are looked at apart from the others, many are not.
+TEST(Overlap, OfTheSelectedNamesTheFirstPair) {
+    constexpr std::array kBoundaries = {Boundary::kOpen, Boundary::kPeriodic, Boundary::kWall};
+    int refused = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Source source(seed);
+        const Scene scene = box_scene(kBoundaries[seed % 3], kBoundaries[seed / 3 % 3], 40);
+        std::vector<Ball> balls;
+        Selection selection;
+        constexpr std::array kSelected = {1, 2, 5, 16, 17, 40};
+        for (int k = 0; k < 200; ++k) {
+            // Some of them lie a period or two beyond the box.
+            Ball ball =
+                ball_at(source.uniform(-19, 19), source.uniform(1, 39), std::exp2(-source.uniform(1, 6)));
+            if (seed % 3 == 1) ball.position.x() += 40 * std::floor(source.uniform(-2, 3));
+            ball.is_static = source.one_in(5);
+            balls.push_back(ball);
+            selection.balls.push_back(source.one_in(200) ? 1 : 0);
+            selection.ball_ids.push_back(static_cast<std::uint32_t>(3 * k + 1));
+        }
+        for (int k = 0; k < kSelected[seed % kSelected.size()]; ++k)
+            selection.balls[static_cast<std::size_t>(source.uniform(0, 200))] = 1;
+        std::string wanted;
+        for (const Overlap& o : find_overlaps(balls, scene)) {
+            if (selection.balls[o.i] == 0 && selection.balls[o.j] == 0) continue;
+            wanted = "balls[" + std::to_string(3 * o.i + 1) + "]: overlaps balls[" +
+                     std::to_string(3 * o.j + 1) + "] ";
+            break;
+        }
+        const std::string told = refusal(balls, scene, &selection);
+        refused += wanted.empty() ? 0 : 1;
+        EXPECT_EQ(told.empty(), wanted.empty()) << told;
+        EXPECT_THAT(told, testing::StartsWith(wanted));
+    }
+    EXPECT_GT(refused, 20);
+    EXPECT_LT(refused, 180);
 }
 
 TEST(Overlap, AHeapOnOnePointIsRefusedInLinearTime) {

@@ -406,6 +406,75 @@ TEST_P(EditedScenes, EmptyEditChangesNoBit) {
     expect_equal(edited, run(scene, {.threads = 1, .domains = 1}, 3.0));
 }
 
+/// Other places and velocities for some balls, two of them named twice.
+Edits random_starts(const World& world, std::mt19937_64& random) {
+    const std::vector<std::uint32_t> ids = world.ball_ids();
+    const Box& box = world.domain().box;
+    Edits edits;
+    for (std::uint64_t k = 0, count = 1 + random() % 6; k < count; ++k) {
+        BallChange& c = edits.changed_balls.emplace_back();
+        c.id = ids[random() % ids.size()];
+        const Ball ball = world.ball(c.id);
+        const std::uint64_t kind = random() % 4;
+        if (kind == 0) {
+            const double x = uniform(random, box.min.x(), box.max.x());
+            c.position = Vec2(x, uniform(random, box.min.y(), box.max.y()));
+        }
+        if (kind == 1) c.position = ball.position;  // it is there, and starts anew
+        if (kind != 1 && !ball.is_static) c.velocity = random_velocity(random, 2);
+        if (random() % 8 == 0) edits.changed_balls.push_back({.id = c.id});
+    }
+    return edits;
+}
+
+/// What a world shows that is edited so, and what sensors tell of it; in place where that can be.
+std::pair<Outcome, std::vector<std::tuple<double, std::uint32_t, std::uint32_t, bool>>> run_with_starts(
+    const Scene& scene, const WorldOptions& options, bool in_place, std::vector<std::string>& refusals) {
+    std::mt19937_64 random(3);
+    Outcome out;
+    std::vector<std::tuple<double, std::uint32_t, std::uint32_t, bool>> sensings;
+    World world(scene, options);
+    const Box& box = world.domain().box;
+    world.set_sensors({{.corners = {box.min, box.max}}, {.corners = {(box.min + box.max) / 2}, .radius = 2}});
+    world.on_sensing([&](const Sensing& s) { sensings.emplace_back(s.time, s.sensor, s.ball, s.enters); });
+    world.on_collision(
+        [&out](const Collision& c) { out.collisions.emplace_back(c.time, c.i, c.j, c.impulse); });
+    for (int k = 1; k <= 40; ++k) {
+        if (k % 3 != 0) world.advance_to(0.1 * k);  // else twice at one time
+        Edits edits = random_starts(world, random);
+        // Of the bodies themselves nothing changes, but the world does not know that.
+        if (!in_place) edits.changed_balls.push_back({.id = 0, .mass = world.ball(0).mass});
+        try {
+            static_cast<void>(world.apply(edits));
+        } catch (const SceneError& e) {
+            refusals.emplace_back(e.what());
+        }
+        const std::vector<Violation> found = world.validate();
+        EXPECT_TRUE(found.empty()) << found.front().what;
+        if (k % 7 == 0) world.restore(world.snapshot());
+    }
+    world.step(1);
+    take_counts(world, out);
+    return {out, sensings};
+}
+
+// Balls that start anew are edited in place; whoever is edited otherwise makes all anew. The bits are one.
+TEST_P(EditedScenes, SameBitsInPlaceAndMadeAnew) {
+    const Scene& scene = GetParam().scene;
+    std::vector<std::string> refusals;
+    const auto anew = run_with_starts(scene, {.threads = 1, .domains = 1}, false, refusals);
+    EXPECT_GT(anew.first.balls, 0);
+    for (const WorldOptions& options : {WorldOptions{.threads = 1, .domains = 1},
+                                        {.threads = 2, .domains = 4},
+                                        {.threads = 1, .cell_size = 2.9, .domains = 3}}) {
+        std::vector<std::string> refused;
+        const auto in_place = run_with_starts(scene, options, true, refused);
+        expect_equal(in_place.first, anew.first);
+        EXPECT_TRUE(in_place.second == anew.second) << "the lists of sensings differ";
+        EXPECT_EQ(refused, refusals);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, EditedScenes, testing::ValuesIn(feature_scenes()), kNameOfScene);
 INSTANTIATE_TEST_SUITE_P(All, EditedSteps, testing::ValuesIn(by_steps(feature_scenes())), kNameOfScene);
 

@@ -39,10 +39,11 @@ void check_overlaps(const std::vector<Ball>& balls, const Scene& scene);
 
 /// What of balls and walls is looked at, and how it is called.
 struct Selection {
-    std::vector<std::uint8_t> balls;      ///< one a ball: whether its overlaps count
-    std::vector<std::uint8_t> walls;      ///< one a wall
-    std::vector<std::uint32_t> ball_ids;  ///< instead of the index, one a ball
-    std::vector<std::uint32_t> wall_ids;
+    std::vector<std::uint8_t> balls = {};  ///< one a ball: whether its overlaps count
+    std::vector<std::uint8_t> walls = {};  ///< one a wall
+    std::vector<std::uint32_t> ball_ids =
+        {};  ///< instead of the index, one a ball; empty where it is the index
+    std::vector<std::uint32_t> wall_ids = {};
 };
 
 /// The same of the overlaps of at least one selected body.
