@@ -4,19 +4,22 @@
 
 namespace carom::app {
 
-Checkpointer::Checkpointer(const World& world, const RunOptions& options,
-                           const std::optional<RunRecord>& before)
+Checkpointer::Checkpointer(const World& world, const RunOptions& options, const Checkpoint& before)
     : path_(options.checkpoint), every_(options.checkpoint_every) {
-    if (before) {
-        record = *before;
+    if (before.run) {
+        record = *before.run;
     } else {
         record.energy_initial = world.energy();
         record.momentum_initial = world.momentum();
     }
     seconds_before_ = record.wall_seconds;
-    if (record.trajectory_bytes > 0) return;
-    record.frame_interval = options.every.value_or(1);
-    record.next_frame = static_cast<std::uint64_t>(std::ceil(world.time() / record.frame_interval));
+    const double interval = options.every.value_or(1);
+    const auto next = static_cast<std::uint64_t>(std::ceil(world.time() / interval));
+    if (record.trajectory_bytes == 0) {
+        record.frame_interval = interval;
+        record.next_frame = next;
+    }
+    measures = before.measures.value_or(MeasuresRecord{.next_sample = next, .interval = interval});
 }
 
 double Checkpointer::interval(double until) const {
@@ -33,7 +36,14 @@ void Checkpointer::save(const World& world, RunOutputs& outputs) {
     record.trajectory_bytes = outputs.trajectory ? outputs.trajectory->sync() : 0;
     record.events_bytes = outputs.events ? outputs.events->sync() : 0;
     record.wall_seconds = wall_seconds();
-    write_checkpoint(path_, {world.snapshot(), record});
+    Checkpoint checkpoint{.snapshot = world.snapshot(), .run = record};
+    if (outputs.sensings) checkpoint.sensings_bytes = outputs.sensings->sync();
+    if (outputs.observation) {
+        measures.observables_bytes = outputs.observation->sync();
+        checkpoint.measures = measures;
+        checkpoint.observer = outputs.observation->save();
+    }
+    write_checkpoint(path_, checkpoint);
 }
 
 }  // namespace carom::app

@@ -14,8 +14,8 @@ namespace carom::app {
 
 class Checkpointer {
  public:
-    /// Goes on with the record of a run that was stopped, or begins one.
-    Checkpointer(const World& world, const RunOptions& options, const std::optional<RunRecord>& before);
+    /// Goes on with the records of a run that was stopped, or begins them.
+    Checkpointer(const World& world, const RunOptions& options, const Checkpoint& before);
 
     [[nodiscard]] bool is_wanted() const { return !path_.empty(); }
     /// Between two checkpoints, simulated; > 0.
@@ -27,6 +27,7 @@ class Checkpointer {
     void save(const World& world, RunOutputs& outputs);
 
     RunRecord record;
+    MeasuresRecord measures;
 
  private:
     std::string path_;

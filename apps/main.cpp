@@ -10,7 +10,10 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include <carom/io/nearest_word.hpp>
 
 #include "commands.hpp"
 
@@ -47,8 +50,32 @@ void require_command(const CLI::App& app, int argc, char** argv) {
         known.push_back(command->get_name());
         if (known.back() == first) return;
     }
-    const std::string what = first.empty() ? "no command is given" : fmt::format("'{}' is no command", first);
+    std::string what = first.empty() ? "no command is given" : fmt::format("'{}' is no command", first);
+    const std::vector<std::string_view> words(known.begin(), known.end());
+    if (first.ends_with(".json"))
+        what += fmt::format(", did you mean carom run {}?", first);
+    else if (const std::string_view nearest = nearest_word(first, words); !nearest.empty())
+        what += fmt::format(", did you mean {}?", nearest);
     throw CLI::ValidationError(fmt::format("{} (known: {}); see carom --help", what, fmt::join(known, ", ")));
+}
+
+// CLI11 names arguments that fit nowhere, the last first, and no more than that.
+std::string unexpected(const CLI::App& app) {
+    const std::vector<CLI::App*> commands = app.get_subcommands();
+    if (commands.empty()) return fmt::format("not expected: {}", fmt::join(app.remaining(), " "));
+    const CLI::App& command = *commands.front();
+    std::vector<std::string> options;
+    for (const CLI::Option* const option : command.get_options())
+        for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    const std::vector<std::string_view> known(options.begin(), options.end());
+    const std::vector<std::string> rest = command.remaining();
+    const auto wrong =
+        std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with('-'); });
+    if (wrong == rest.end()) return fmt::format("not expected: {}", fmt::join(rest, " "));
+    const std::string_view nearest = nearest_word(wrong->substr(0, wrong->find('=')), known);
+    if (nearest.empty())
+        return fmt::format("{}: no option of carom {}; see its --help", *wrong, command.get_name());
+    return fmt::format("{}: no option of carom {}, did you mean {}?", *wrong, command.get_name(), nearest);
 }
 
 int run_program(int argc, char** argv) {
@@ -71,7 +98,8 @@ int run_program(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == int(CLI::ExitCodes::Success))
             return app.exit(error);  // --help, --version
-        print_error(error.what());
+        const bool is_extra = error.get_exit_code() == int(CLI::ExitCodes::ExtrasError);
+        print_error(is_extra ? unexpected(app) : error.what());
         return kWrongUsage;
     }
     return status;

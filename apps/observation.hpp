@@ -1,8 +1,10 @@
 // What is measured during a run: a row a sample as the run goes, the structure at its end.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <carom/io/atomic_file.hpp>
 #include <carom/io/growing_file.hpp>
@@ -20,18 +22,28 @@ struct ObservationOptions {
     [[nodiscard]] bool is_wanted() const { return !observables.empty() || !structure.empty(); }
 };
 
+/// Throws std::invalid_argument where what was saved was measured otherwise than these options ask for.
+void require_same_measures(const ObservationOptions& options, const World& world,
+                           const std::vector<std::uint64_t>& saved);
+
 class Observation {
  public:
-    /// Opens the files. Throws FileError, as do the others.
-    explicit Observation(const ObservationOptions& options);
+    /// Opens the files; that of the rows goes on after its first `kept` bytes. Throws FileError, as do the
+    /// others.
+    Observation(const ObservationOptions& options, std::uint64_t kept);
 
-    /// To be called before the first sample. Gives whether collisions are to be recorded.
-    bool begin(const World& world);
+    /// To be called before the first sample, with what was saved where a run is gone on with. Gives whether
+    /// collisions are to be recorded. Precondition: that was measured so.
+    bool begin(const World& world, const std::optional<std::vector<std::uint64_t>>& saved);
     void record(const Collision& collision) {
         if (observer_) observer_->record(collision);
     }
     /// After begin().
     void sample(const World& world);
+    /// Forces the rows to the disk and gives the bytes that they take; 0 where there are none.
+    std::uint64_t sync();
+    /// What an observer goes on from. After begin().
+    [[nodiscard]] std::vector<std::uint64_t> save() const { return observer_->save(); }
     void commit();
 
  private:

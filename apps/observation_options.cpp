@@ -27,7 +27,7 @@ void add_observation_options(CLI::App& command, ObservationOptions& options) {
         ->group(group);
 }
 
-// --every belongs to any of several options, and measures to runs from the start.
+// --every belongs to any of several options.
 void require_fitting(const RunOptions& options) {
     const bool observes = options.observation.is_wanted();
     if (options.every && options.trajectory.empty() && !observes)
@@ -38,9 +38,6 @@ void require_fitting(const RunOptions& options) {
         if (!path->empty() && !options.every) throw CLI::RequiresError(name, "--every");
     if (options.observation.average_from > 0 && options.observation.structure.empty())
         throw CLI::RequiresError("--average-from", "--structure");
-    if (observes && !(options.checkpoint.empty() && options.resume.empty()))
-        throw CLI::ValidationError(options.checkpoint.empty() ? "--resume" : "--checkpoint",
-                                   "keeps no measures: not with --observables or --structure");
 }
 
 }  // namespace carom::app

@@ -71,12 +71,11 @@ bool move_to_end(World& world, Driver& driver, const Scene& scene, double until,
                  Checkpointer& checkpointer, RunOutputs& outputs) {
     RunRecord& record = checkpointer.record;
     Multiples frames(record.frame_interval, outputs.trajectory ? until : 0, double(record.next_frame));
-    const double interval = options.every.value_or(1);
-    Multiples samples(interval, outputs.observation ? until : 0);
-    double last_sample = -1;
+    MeasuresRecord& measures = checkpointer.measures;
+    Multiples samples(measures.interval, outputs.observation ? until : 0, double(measures.next_sample));
     const auto sample = [&] {
         outputs.observation->sample(world);
-        last_sample = world.time();
+        measures.last_sample = world.time();
     };
     const bool stops = options.step && scene.method == Method::kEvent;
     Multiples steps = Multiples::after(world.time(), options.step.value_or(1), stops ? until : 0);
@@ -107,6 +106,7 @@ bool move_to_end(World& world, Driver& driver, const Scene& scene, double until,
         if (going && next_sample && *next_sample <= stop) {
             sample();
             samples.advance();
+            ++measures.next_sample;
         }
         if (step && *step <= stop) steps.advance();
         if (going && checkpoint && *checkpoint <= stop) {
@@ -115,14 +115,15 @@ bool move_to_end(World& world, Driver& driver, const Scene& scene, double until,
         }
     }
     if (checkpointer.is_wanted()) {
-        // A frame that this end has swallowed, being due a rounding before it, is due in a longer run.
-        going = going && driver.advance_to(frames.left_out().value_or(until));
+        // What this end has swallowed, being due a rounding before it, is due in a longer run.
+        going = going && driver.advance_to(
+                             std::min(frames.left_out().value_or(until), samples.left_out().value_or(until)));
         checkpointer.save(world, outputs);
     }
     going = going && driver.advance_to(until);
     // Of this run's end, not of the one that a checkpoint may lead to.
     if (outputs.trajectory && last_frame < world.time()) write_frame();
-    if (outputs.observation && last_sample < world.time()) sample();
+    if (outputs.observation && measures.last_sample < world.time()) sample();
     return going;
 }
 
@@ -179,32 +180,37 @@ void write_end(const World& world, const Scene& scene, const RunOptions& options
 
 }  // namespace
 
-RunOutputs::RunOutputs(const RunOptions& options, const RunRecord& done) {
+RunOutputs::RunOutputs(const RunOptions& options, const Checkpoint& done) {
     if (!options.checkpoint.empty()) const AtomicFile can_be_written(options.checkpoint);
     open_if_named(final_state, options.final_state);
-    open_if_named(sensings, options.sensings);
     open_if_named(picture, options.picture);
     if (options.summary != "-") summary.emplace(options.summary);
     // These last: they may empty their files, which is not to happen when another output fails. A list of
     // events that a checkpoint is to cover has to be there when the run is killed.
-    if (!options.checkpoint.empty() || done.events_bytes > 0)
-        open_if_named(events, options.events, done.events_bytes);
-    else
-        open_if_named(events, options.events);
-    if (options.observation.is_wanted()) observation.emplace(options.observation);
+    const RunRecord run = done.run.value_or(RunRecord{});
+    const auto open_list = [&options](auto& list, const std::string& path, std::uint64_t kept) {
+        if (!options.checkpoint.empty() || kept > 0)
+            open_if_named(list, path, kept);
+        else
+            open_if_named(list, path);
+    };
+    open_list(events, options.events, run.events_bytes);
+    open_list(sensings, options.sensings, done.sensings_bytes.value_or(0));
+    if (options.observation.is_wanted())
+        observation.emplace(options.observation, done.measures ? done.measures->observables_bytes : 0);
     if (options.trajectory.empty()) return;
-    const bool goes_on = done.trajectory_bytes > 0;
+    const bool goes_on = run.trajectory_bytes > 0;
     trajectory = open_trajectory(options.trajectory,
-                                 goes_on ? KeptFrames{done.trajectory_bytes, done.next_frame} : KeptFrames{});
+                                 goes_on ? KeptFrames{run.trajectory_bytes, run.next_frame} : KeptFrames{});
 }
 
 bool run_world(World& world, const Scene& scene, double until, const RunOptions& options,
-               const std::optional<RunRecord>& record, RunOutputs& outputs) {
-    Checkpointer checkpointer(world, options, record);
-    const Counts before = world.counts();
-    Progress progress(!options.quiet, world.time(), until, before.ball_collisions + before.wall_collisions);
+               const Checkpoint& before, RunOutputs& outputs) {
+    Checkpointer checkpointer(world, options, before);
+    const Counts counts = world.counts();
+    Progress progress(!options.quiet, world.time(), until, counts.ball_collisions + counts.wall_collisions);
     Driver driver(world, progress, until);
-    listen(world, driver, outputs, outputs.observation && outputs.observation->begin(world));
+    listen(world, driver, outputs, outputs.observation && outputs.observation->begin(world, before.observer));
 
     checkpointer.start_clock();
     const bool finished = move_to_end(world, driver, scene, until, options, checkpointer, outputs);

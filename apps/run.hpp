@@ -53,7 +53,7 @@ struct RunOptions {
 /// after an hour; what `done` covers of the trajectory and the list of events is gone on with. Throws
 /// FileError.
 struct RunOutputs {
-    RunOutputs(const RunOptions& options, const RunRecord& done);
+    RunOutputs(const RunOptions& options, const Checkpoint& done);
 
     std::unique_ptr<Trajectory> trajectory;
     std::optional<Observation> observation;
@@ -65,8 +65,8 @@ struct RunOutputs {
 };
 
 /// Moves the world to `until` and writes the outputs, also when an interrupt ends it earlier: then false.
-/// `record` is what a checkpoint tells of the run before, none at its start. Throws what the outputs throw.
+/// `before` has the records of the run before, none at its start. Throws what the outputs throw.
 bool run_world(World& world, const Scene& scene, double until, const RunOptions& options,
-               const std::optional<RunRecord>& record, RunOutputs& outputs);
+               const Checkpoint& before, RunOutputs& outputs);
 
 }  // namespace carom::app

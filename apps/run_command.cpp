@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -34,15 +35,15 @@ Files ending in .xyz are extended XYZ, one frame after the other, with enough di
 writes H5MD (compressed, needs HDF5) where its name ends in .h5, a LAMMPS dump where it ends in .lammpstrj or .dump.
 --events writes CSV, one collision a line: time,kind,i,j,x,y,nx,ny,impulse. --sensings does so for balls that come into the
 scene's sensors or leave them: time,sensor,ball,enters,x,y,vx,vy. The summary is one JSON object. All outputs
-but these appear whole, at the end: the trajectory and --observables grow as the run goes, and so does --events with
---checkpoint. A rate or pressure of --observables is the mean since the row before.
+but these appear whole, at the end: the trajectory and --observables grow as the run goes, and so do --events and --sensings
+with --checkpoint. A rate or pressure of --observables is the mean since the row before.
 
 Ctrl-C ends a run early and writes what was asked for, up to the time reached; a second one ends it at once.
 
 --checkpoint keeps the run's state in a file: every --checkpoint-every, at the end, and at Ctrl-C. --resume goes on from there
-and ends with the same bits, counts, trajectory and events as a run that was never stopped, with any other --threads,
---domains, --step or a later --until. --trajectory and --events then name the files that the run has left; what they hold
-beyond the checkpoint is cut off and written anew.
+and ends with the same bits, counts, trajectory, lists and measures as a run that was never stopped, with any other --threads,
+--domains, --step or a later --until. --trajectory, --events, --sensings and --observables then name the files that the run
+has left; what they hold beyond the checkpoint is cut off and written anew.
 
 Examples:
   carom run gas.json                                 Summary to standard output
@@ -77,10 +78,14 @@ std::optional<Checkpoint> checkpoint_of(const RunOptions& options, double until)
     const auto refuse = [&options](const std::string& why) { throw FileError(options.resume, why); };
     if (checkpoint.snapshot.time > until)
         refuse(fmt::format("is at time {}, after the end at {}", checkpoint.snapshot.time, until));
-    if (const std::optional<RunRecord>& run = checkpoint.run;
-        run && run->trajectory_bytes > 0 && options.every && *options.every != run->frame_interval)
+    if (const std::optional<RunRecord>& run = checkpoint.run; run && run->trajectory_bytes > 0 &&
+                                                              !options.trajectory.empty() &&
+                                                              *options.every != run->frame_interval)
         refuse(
             fmt::format("covers a trajectory with --every {}, not {}", run->frame_interval, *options.every));
+    if (const std::optional<MeasuresRecord>& measures = checkpoint.measures;
+        measures && options.observation.is_wanted() && *options.every != measures->interval)
+        refuse(fmt::format("covers measures with --every {}, not {}", measures->interval, *options.every));
     return checkpoint;
 }
 
@@ -118,8 +123,6 @@ void require_sensors(const Scene& scene, const RunOptions& options) {
     if (options.sensings.empty()) return;
     if (scene.sensors.empty())
         throw CLI::ValidationError("--sensings", "belongs to scenes with sensors, this has none");
-    if (!options.checkpoint.empty() || !options.resume.empty())
-        throw CLI::ValidationError("--sensings", "does not go with --checkpoint and --resume");
 }
 
 // So do the settings that both methods have.
@@ -130,6 +133,17 @@ void take_settings(Scene& scene, const RunOptions& options) {
     if (scene.attractors.empty())
         throw CLI::ValidationError("--field-interval", "belongs to scenes with attractors, this has none");
     scene.field_interval = *options.field_interval;
+}
+
+// What was measured up to the checkpoint can only be gone on with as it was begun.
+void require_same_measures(const RunOptions& options, const World& world, const Checkpoint& before) {
+    if (!before.observer || !options.observation.is_wanted()) return;
+    try {
+        require_same_measures(options.observation, world, *before.observer);
+    } catch (const std::invalid_argument&) {
+        throw FileError(options.resume,
+                        "covers measures with other --observables, --structure or --average-from");
+    }
 }
 
 int run(const RunOptions& options) {
@@ -143,16 +157,18 @@ int run(const RunOptions& options) {
     const double until = options.until.value_or(scene.until);
     std::optional<Checkpoint> checkpoint = checkpoint_of(options, until);
     std::optional<RunOutputs> outputs;
-    if (!checkpoint) outputs.emplace(options, RunRecord{});
+    if (!checkpoint) outputs.emplace(options, Checkpoint{});
     watch_for_interrupts();
     World world = make_world(scene, options, checkpoint);
-    std::optional<RunRecord> record;
+    Checkpoint before;
     if (checkpoint) {  // the files that it left are not touched before the scene proves to be its own
-        record = checkpoint->run;
+        before = std::move(*checkpoint);
+        before.snapshot = {};
         checkpoint.reset();
-        outputs.emplace(options, record.value_or(RunRecord{}));
+        require_same_measures(options, world, before);
+        outputs.emplace(options, before);
     }
-    const bool finished = run_world(world, scene, until, options, record, *outputs);
+    const bool finished = run_world(world, scene, until, options, before, *outputs);
     if (finished) return kGood;
     if (!options.quiet) {
         fmt::print(stderr, "carom: interrupted at t = {:.6g} of {:.6g}; the outputs end there\n",

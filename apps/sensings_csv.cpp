@@ -2,28 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <cstddef>
 #include <iterator>
 
 namespace carom::app {
+namespace {
+constexpr std::string_view kSensingsHeader = "time,sensor,ball,enters,x,y,vx,vy\n";
+}
 
-SensingsCsv::SensingsCsv(const std::string& path) : file_(path) {}
+SensingsCsv::SensingsCsv(const std::string& path) : rows_(path, kSensingsHeader) {}
+
+SensingsCsv::SensingsCsv(const std::string& path, std::uint64_t kept) : rows_(path, kSensingsHeader, kept) {}
 
 void SensingsCsv::write(const Sensing& s) {
-    fmt::format_to(std::back_inserter(buffer_), "{},{},{},{},{},{},{},{}\n", s.time, s.sensor, s.ball,
+    fmt::format_to(std::back_inserter(rows_.row()), "{},{},{},{},{},{},{},{}\n", s.time, s.sensor, s.ball,
                    s.enters ? 1 : 0, s.position.x(), s.position.y(), s.velocity.x(), s.velocity.y());
-    constexpr std::size_t kBufferSize = std::size_t{1} << 20;
-    if (buffer_.size() >= kBufferSize) flush();
-}
-
-void SensingsCsv::flush() {
-    file_.write(buffer_);
-    buffer_.clear();
-}
-
-void SensingsCsv::commit() {
-    flush();
-    file_.commit();
+    rows_.end_row();
 }
 
 }  // namespace carom::app

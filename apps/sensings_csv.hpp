@@ -1,27 +1,29 @@
 // Who came into sensors and left them, as CSV: one a line in time order.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
-#include <carom/io/atomic_file.hpp>
+#include <carom/io/row_file.hpp>
 #include <carom/parallel/world.hpp>
 
 namespace carom::app {
 
-/// Writes `time,sensor,ball,enters,x,y,vx,vy`, enters being 1 or 0, into a file that appears under its name
-/// with commit(). Throws FileError.
+/// Writes `time,sensor,ball,enters,x,y,vx,vy`, enters being 1 or 0. Throws FileError.
 class SensingsCsv {
  public:
+    /// A file that appears under its name with commit().
     explicit SensingsCsv(const std::string& path);
+    /// A file that grows: see RowFile.
+    SensingsCsv(const std::string& path, std::uint64_t kept);
     /// Numbers have as many digits as it takes to read back the same bits. Rows are buffered.
     void write(const Sensing& sensing);
-    void commit();
+    void commit() { rows_.commit(); }
+    /// Of a file that grows: forces the rows to the disk and gives the bytes that they take.
+    std::uint64_t sync() { return rows_.sync(); }
 
  private:
-    void flush();
-
-    AtomicFile file_;
-    std::string buffer_ = "time,sensor,ball,enters,x,y,vx,vy\n";
+    RowFile rows_;
 };
 
 }  // namespace carom::app

@@ -95,7 +95,7 @@ std::string balls_text(const Scene& scene) {
 std::string contact_text(double contact_time) {
     constexpr double kRestingCollisions = 5;
     if (contact_time == 0) return "0";
-    return fmt::format("{:.6g} (at rest about {:.3g} collisions a ball and second)", contact_time,
+    return fmt::format("{:.6g} (at rest about {:.3g} collisions a ball and unit of time)", contact_time,
                        kRestingCollisions / contact_time);
 }
 

@@ -81,6 +81,14 @@ void each(F& f, T& r) {
     f(r.events_bytes);
 }
 
+template <class F, Like<MeasuresRecord> T>
+void each(F& f, T& m) {
+    f(m.observables_bytes);
+    f(m.next_sample);
+    f(m.interval);
+    f(m.last_sample);
+}
+
 /// Calls visitor.items(name, item...) for a section of a few items that is always there, visitor.list(name,
 /// vector) for one of an item a moving ball, which may be absent, visitor.optional(name, item) for others,
 /// among them vectors of any length.
@@ -97,6 +105,9 @@ void for_each_section(Visitor& visitor, T& checkpoint) {
     visitor.optional("missed", s.counts.missed_collisions);
     visitor.optional("contacts", s.contacts);
     visitor.optional("run", checkpoint.run);
+    visitor.optional("sensings", checkpoint.sensings_bytes);
+    visitor.optional("measures", checkpoint.measures);
+    visitor.optional("observer", checkpoint.observer);
 }
 
 /// How many bytes a number takes: its own, and 8 for a truth value.

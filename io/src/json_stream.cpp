@@ -77,8 +77,10 @@ class Builder : public nlohmann::json_sax<Json> {
         else if (const auto bracket = rule.find("] "); bracket != std::string_view::npos)
             rule.remove_prefix(bracket + 2);
         if (const auto last_read = rule.find("; last read: "); last_read != std::string_view::npos)
-            throw SceneError(where(position), fmt::format("{}{}", rule.substr(0, last_read + 13),
-                                                          quotable(rule.substr(last_read + 13))));
+            throw SceneError(
+                where(position),
+                fmt::format("{}{}{}", rule.substr(0, last_read + 13), quotable(rule.substr(last_read + 13)),
+                            rule.ends_with("/'") ? " (JSON has no comments)" : ""));
         throw SceneError(where(position), fmt::format("{}{}", rule, likely_cause(rule)));
     }
 

@@ -9,28 +9,10 @@
 #include <fmt/ranges.h>
 
 #include <carom/core/scene.hpp>
+#include <carom/io/nearest_word.hpp>
 
 namespace carom {
 namespace {
-
-/// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> before_last(b.size() + 1);
-    std::vector<std::size_t> last(b.size() + 1);
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                row[j] = std::min(row[j], before_last[j - 2] + 1);
-        }
-        std::swap(before_last, last);
-        std::swap(last, row);
-    }
-    return last[b.size()];
-}
 
 [[noreturn]] void fail_type(const Json& value, const Place& place, std::string_view wanted) {
     throw SceneError(place.text(), fmt::format("must be {}, is {}", wanted, kind_of(value)));
@@ -78,18 +60,7 @@ std::string quotable(std::string_view text) {
 }
 
 void fail_unknown_key(const Place& place, std::span<const std::string_view> known) {
-    const std::string_view key = place.key;
-    constexpr std::size_t kLongestWord = 40;
-    std::string_view nearest;
-    std::size_t shortest = std::max<std::size_t>(2, key.size() / 3) + 1;
-    for (const std::string_view word : known) {
-        if (key.size() > kLongestWord) break;
-        const std::size_t distance = edit_distance(key, word);
-        if (distance < shortest) {
-            shortest = distance;
-            nearest = word;
-        }
-    }
+    const std::string_view nearest = nearest_word(place.key, known);
     if (!nearest.empty())
         throw SceneError(place.text(), fmt::format("unknown key, did you mean \"{}\"?", nearest));
     throw SceneError(place.text(), fmt::format("unknown key, known are {}", fmt::join(known, ", ")));

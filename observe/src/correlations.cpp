@@ -58,4 +58,25 @@ void Correlations::give(Curve& displacement, Curve& velocity) const {
     }
 }
 
+void Correlations::save(WordSink& words) {
+    words(std::uint64_t{moments_.size()}, std::uint64_t{sums_.size()});
+    visit(words);
+}
+
+void Correlations::restore(WordSource& words) {
+    std::uint64_t moments = 0;
+    std::uint64_t sums = 0;
+    words(moments, sums);
+    const std::uint64_t words_of_moment = 1 + 4 * std::uint64_t{ids_.size()};
+    if (moments > lags_ + 1 || sums > lags_ + 1 || sums < moments || moments > words.most(words_of_moment))
+        WordSource::fail();
+    moments_.resize(moments);
+    for (Moment& m : moments_) {
+        m.position.resize(ids_.size());
+        m.velocity.resize(ids_.size());
+    }
+    sums_.resize(sums);
+    visit(words);
+}
+
 }  // namespace carom::observe

@@ -7,6 +7,8 @@
 
 #include <carom/observe/observer.hpp>
 
+#include "words.hpp"
+
 namespace carom::observe {
 
 class Correlations {
@@ -18,6 +20,8 @@ class Correlations {
     /// interval, that of the first two, nothing before it is an origin any more.
     void add(double time, const PlaneVectors& unwrapped, const PlaneVectors& velocities);
     void give(Curve& displacement, Curve& velocity) const;
+    void save(WordSink& words);
+    void restore(WordSource& words);
 
  private:
     struct Moment {
@@ -31,6 +35,12 @@ class Correlations {
         std::uint64_t origins = 0;
     };
 
+    template <class Words>
+    void visit(Words& words) {
+        words(interval_);
+        for (Moment& m : moments_) words(m.time, m.position, m.velocity);
+        for (Sums& s : sums_) words(s.lag, s.displacement, s.velocity, s.origins);
+    }
     [[nodiscard]] bool follows(double time) const;
     void correlate(const Moment& now);
 

@@ -168,6 +168,32 @@ class Observer::State {
         return s;
     }
 
+    /// The words that save() gives; the first number changes when their meaning does.
+    template <class Words>
+    void visit(Words& words) {
+        words.same(std::uint64_t{1});
+        words.same(options.records_collisions);
+        words.same(options.average_from);
+        words.same(options.reach);
+        words.same(options.bin);
+        words.same(std::uint64_t{options.profile_bins});
+        words.same(std::uint64_t{options.lags});
+        words.same(std::uint64_t{options.tracked});
+        words.same(options.neighbour_cutoff);
+        words.same(options.hexatic);
+        words.same(options.structure);
+        words.same(std::uint64_t{all});
+        words.same(std::uint64_t{ids.size()});
+        words(impulses, has_sampled, last_time, last_virial, last_counts.ball_collisions,
+              last_counts.wall_collisions, averaged, first_averaged);
+        if (has_sampled) {
+            origin.resize(ids.size());
+            words(origin);
+        }
+        radial.visit(words);
+        profiles.visit(words);
+    }
+
     ObserverOptions options;
     Domain domain;
     std::size_t all;           // balls, static ones too
@@ -208,6 +234,21 @@ Sample Observer::sample(const World& world) {
 
 Structure Observer::structure() const {
     return state_->structure();
+}
+
+std::vector<std::uint64_t> Observer::save() const {
+    std::vector<std::uint64_t> words;
+    observe::WordSink sink(words);
+    state_->visit(sink);
+    state_->correlations.save(sink);
+    return words;
+}
+
+void Observer::restore(std::span<const std::uint64_t> words) {
+    observe::WordSource source(words);
+    state_->visit(source);
+    state_->correlations.restore(source);
+    source.require_end();
 }
 
 }  // namespace carom

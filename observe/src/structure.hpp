@@ -21,6 +21,10 @@ class RadialDistribution {
     RadialDistribution(const Domain& domain, double reach, double bin);
     void add(std::span<const Vec2> points);
     [[nodiscard]] Curve curve() const;
+    template <class Words>
+    void visit(Words& words) {
+        words(pairs_, weight_);
+    }
 
  private:
     [[nodiscard]] bool is_whole_around(const Vec2& point) const;
@@ -37,6 +41,10 @@ class Profiles {
     void add(std::span<const Vec2> points);
     /// Along x (0) or y (1).
     [[nodiscard]] Curve curve(int axis) const;
+    template <class Words>
+    void visit(Words& words) {
+        words(counts_[0], counts_[1], samples_);
+    }
 
  private:
     Box box_;

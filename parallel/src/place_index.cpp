@@ -149,7 +149,7 @@ std::vector<std::uint32_t> PlaceIndex::within(const Vec2& centre, double radius)
     return found;
 }
 
-std::optional<NearestBall> PlaceIndex::nearest(const Vec2& p) const {
+std::optional<NearestBall> PlaceIndex::nearest(const Vec2& p, std::uint32_t left_out) const {
     std::optional<NearestBall> best;
     const auto limit = [&best] { return best ? best->distance : kInfinity; };
     const Vec2 home = wrapped(p);
@@ -163,8 +163,8 @@ std::optional<NearestBall> PlaceIndex::nearest(const Vec2& p) const {
             };
             balls_.search(limit(), bound, [&](std::uint32_t i) {
                 const double d = distance(discs_[i].centre, place) - discs_[i].radius;
-                if (!best || d < best->distance || (d == best->distance && i < best->id))
-                    best = NearestBall{i, d};
+                const bool is_nearer = !best || d < best->distance || (d == best->distance && i < best->id);
+                if (is_nearer && i != left_out) best = NearestBall{i, d};
                 return limit();
             });
         }

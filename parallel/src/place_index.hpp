@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,8 +22,9 @@ class PlaceIndex {
     [[nodiscard]] std::vector<std::uint32_t> within(const Vec2& centre, double radius) const;
     /// Balls whose discs touch the box, in rising order.
     [[nodiscard]] std::vector<std::uint32_t> within(const Box& box) const;
-    /// The ball whose surface is nearest; of equals the lowest.
-    [[nodiscard]] std::optional<NearestBall> nearest(const Vec2& p) const;
+    /// The ball whose surface is nearest; of equals the lowest. One may be left out.
+    static constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
+    [[nodiscard]] std::optional<NearestBall> nearest(const Vec2& p, std::uint32_t left_out = kNobody) const;
     /// `direction` is of length 1.
     [[nodiscard]] std::optional<RayHit> first_along(const Vec2& from, const Vec2& direction,
                                                     double length) const;

@@ -28,6 +28,7 @@ void World::advance_to(double time) {
 }
 
 void World::step(double dt) {
+    if (!(dt >= 0)) throw std::invalid_argument("a step must be >= 0, is " + shown(dt));
     advance_to(time() + dt);
 }
 
@@ -183,6 +184,7 @@ void World::restore(const Snapshot& snapshot) {
 }
 
 void World::on_collision(std::function<void(const Collision&)> listener) {
+    const State::Telling telling(*state_);
     state_->listener = std::move(listener);
     state_->engine->listen(state_->listener);
 }

@@ -62,6 +62,7 @@ void World::set_sensors(std::vector<Sensor> sensors) {
     for (std::size_t k = 0; k < sensors.size(); ++k) check(sensors[k], k);
     if (state_->bodies().physics.empirical && !sensors.empty())
         throw std::logic_error("the empirical method knows no sensors");
+    const State::Telling telling(*state_);
     state_->sensors = std::move(sensors);
     state_->watch_anew();
 }
@@ -69,6 +70,7 @@ void World::set_sensors(std::vector<Sensor> sensors) {
 std::vector<std::uint32_t> World::balls_in_sensor(std::uint32_t sensor) const {
     if (sensor >= state_->sensors.size())
         throw std::out_of_range("sensors[" + std::to_string(sensor) + "]: is not there");
+    state_->require_rest();
     const std::vector<Sensor> one = {state_->sensors[sensor]};
     const SensorWatch watch(state_->bodies(), one, *state_->engine, state_->now);
     std::vector<std::uint32_t> found;
@@ -80,6 +82,7 @@ std::vector<std::uint32_t> World::balls_in_sensor(std::uint32_t sensor) const {
 void World::on_sensing(std::function<void(const Sensing&)> listener) {
     if (state_->bodies().physics.empirical && listener)
         throw std::logic_error("the empirical method knows no sensors");
+    const State::Telling telling(*state_);
     state_->sensing = std::move(listener);
     state_->watch_anew();
 }
@@ -151,9 +154,10 @@ std::vector<std::uint32_t> World::balls_at(const Vec2& centre, double radius) co
     return state_->named(state_->places().within(centre, radius));
 }
 
-std::optional<NearestBall> World::nearest_ball(const Vec2& point) const {
+std::optional<NearestBall> World::nearest_ball(const Vec2& point, std::optional<std::uint32_t> except) const {
     require_finite(point, "a place");
-    std::optional<NearestBall> found = state_->places().nearest(point);
+    const std::uint32_t left_out = except ? state_->index_of_ball(*except) : PlaceIndex::kNobody;
+    std::optional<NearestBall> found = state_->places().nearest(point, left_out);
     if (found) found->id = state_->bodies().ball_id(found->id);
     return found;
 }

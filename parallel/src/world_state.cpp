@@ -114,10 +114,19 @@ Snapshot World::State::snapshot_of(const Engine& e) const {
     return s;
 }
 
-World::State::Telling::Telling(State& state) : state_(state) {
+World::State::Telling::Telling(State& state, bool moves) : state_(state) {
     if (state.is_telling_)
         throw std::logic_error("a listener must not change the world; do it after the step");
     state.is_telling_ = true;
+    state.is_moving_ = moves;
+}
+
+void World::State::require_rest() const {
+    if (is_moving_)
+        throw std::logic_error(
+            "a listener must not look at the world's balls, which are on their way; what it is told holds "
+            "there "
+            "and then");
 }
 
 void World::State::restore(const Snapshot& s) {
@@ -178,6 +187,7 @@ void World::State::forget() {
 }
 
 const std::vector<BallState>& World::State::states() const {
+    require_rest();
     const std::lock_guard lock(reading_);
     if (!is_read_) {
         read(*engine, states_);
@@ -242,7 +252,7 @@ void World::State::advance_to(double time) {
     if (!bodies().attractors.empty() && time > kMostFieldUpdates * field_interval)
         throw std::invalid_argument("time " + shown(time) +
                                     " is more than a thousand million of the scene's field_interval away");
-    const Telling telling(*this);
+    const Telling telling(*this, true);
     forget();
     Time horizon = kNever;
     if (!bodies().attractors.empty()) {

@@ -63,7 +63,12 @@ class World::State {
     /// From the scene's beginning where `snapshot` is null.
     State(const Scene& scene, const WorldOptions& options, const Snapshot* snapshot);
 
-    [[nodiscard]] Snapshot snapshot() const { return snapshot_of(*engine); }
+    [[nodiscard]] Snapshot snapshot() const {
+        require_rest();
+        return snapshot_of(*engine);
+    }
+    /// Throws std::logic_error while the balls are on their way to the next time.
+    void require_rest() const;
     void restore(const Snapshot& s);
     void advance_to(double time);
     [[nodiscard]] Added apply(const Edits& edits);
@@ -118,12 +123,12 @@ class World::State {
     std::vector<Sensor> sensors;
     std::function<void(const Sensing&)> sensing;
 
-    /// Holds while listeners may be told, who must not change the world. Throws std::logic_error where it is
-    /// held already.
+    /// Holds while listeners may be told, who must not change the world, nor, while it moves, look at its
+    /// balls. Throws std::logic_error where it is held already.
     class Telling {
      public:
-        explicit Telling(State& state);
-        ~Telling() { state_.is_telling_ = false; }
+        explicit Telling(State& state, bool moves = false);
+        ~Telling() { state_.is_telling_ = state_.is_moving_ = false; }
         Telling(const Telling&) = delete;
         Telling& operator=(const Telling&) = delete;
 
@@ -152,6 +157,7 @@ class World::State {
     void continue_with(std::shared_ptr<const Cast> next, std::unique_ptr<Engine> made, const Snapshot& s);
 
     bool is_telling_ = false;
+    bool is_moving_ = false;
     std::unique_ptr<SensorWatch> watch_;  // where somebody listens
     mutable std::mutex reading_;
     mutable bool is_read_ = false;

@@ -26,14 +26,34 @@ Words operator+(Words a, const Words& b) {
 
 // A run with every output; the files' names begin with `name`.
 Words run_of(const std::string& name, const std::string& until, const std::string& every) {
-    return {"run",       "s.json",      "--until",   until,          "--trajectory", name + ".xyz",
-            "--every",   every,         "--events",  name + ".csv",  "--final",      name + "-end.xyz",
-            "--picture", name + ".svg", "--summary", name + ".json", "--quiet"};
+    return {"run",
+            "s.json",
+            "--until",
+            until,
+            "--trajectory",
+            name + ".xyz",
+            "--every",
+            every,
+            "--events",
+            name + ".csv",
+            "--final",
+            name + "-end.xyz",
+            "--picture",
+            name + ".svg",
+            "--summary",
+            name + ".json",
+            "--quiet",
+            "--structure",
+            name + ".str",
+            "--observables",
+            name + ".obs",
+            "--average-from",
+            "1"};
 }
 
 // All that does not tell how the work was done.
 void expect_same_end(const Folder& folder, const std::string& a, const std::string& b) {
-    for (const char* const kind : {".xyz", ".csv", "-end.xyz", ".svg"})
+    for (const char* const kind : {".xyz", ".csv", "-end.xyz", ".svg", ".obs", ".str"})
         EXPECT_TRUE(folder.read(a + kind) == folder.read(b + kind)) << kind << " differs";
     for (const char* const key :
          {"scene", "method", "precision", "balls", "walls", "time", "ball_collisions", "wall_collisions",
@@ -49,7 +69,19 @@ class ResumedRun : public testing::TestWithParam<std::pair<std::string, std::str
     static bool is_stepped() { return GetParam().second == "empirical"; }
     static std::string scene() {
         const std::string busy = busy_scene(GetParam().first);
-        return is_stepped() ? with_keys(busy, "\"method\": \"empirical\", \"step\": 0.03, ") : busy;
+        return with_keys(busy, is_stepped() ? R"("method": "empirical", "step": 0.03, )"
+                                            : R"("sensors": [{"corners": [[0, 3], [9, 4]]}], )");
+    }
+    /// With the list of sensings, which the event method has.
+    static Words run_of(const std::string& name, const std::string& until, const std::string& every) {
+        Words words = testing_program::run_of(name, until, every);
+        return is_stepped() ? words : words + Words{"--sensings", name + ".sen"};
+    }
+    static void expect_same_end(const Folder& folder, const std::string& a, const std::string& b) {
+        testing_program::expect_same_end(folder, a, b);
+        if (is_stepped()) return;
+        EXPECT_TRUE(folder.read(a + ".sen") == folder.read(b + ".sen"));
+        EXPECT_GT(folder.read(a + ".sen").size(), 1000);
     }
 };
 
@@ -146,6 +178,12 @@ TEST(Checkpoints, WhatCannotBeGoneOnFromIsRefusedAndLeftAlone) {
             "c: is at time 3, after the end at 2");
     refused({"run", "s.json", "--resume", "c", "--trajectory", "b.xyz", "--every", "0.25"},
             "c: covers a trajectory with --every 0.5, not 0.25");
+    refused({"run", "s.json", "--resume", "c", "--observables", "b.obs", "--every", "0.25"},
+            "c: covers measures with --every 0.5, not 0.25");
+    const std::string rows = folder.read("b.obs");
+    refused({"run", "s.json", "--resume", "c", "--observables", "b.obs", "--every", "0.5"},
+            "c: covers measures with other --observables, --structure or --average-from");
+    EXPECT_EQ(folder.read("b.obs"), rows);
     refused({"run", "s.json", "--resume", "c", "--events", "none.csv"},
             "none.csv: cannot be written: No such file");
     folder.write("short.csv", events.substr(0, 100));

@@ -37,6 +37,8 @@ class KilledRun {
         seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
         trajectory_ = folder_.read("a.xyz");
         events_ = folder_.read("a.csv");
+        rows_ = folder_.read("a.obs");
+        structure_ = folder_.read("a.str");
         hash_ = summary_value(folder_.read("a.json"), "state_hash");
     }
 
@@ -70,20 +72,24 @@ class KilledRun {
             }
         }
         if (!fs::exists(folder_.path("c"))) return;
-        const std::optional<RunRecord> record = read_checkpoint(folder_.path("c")).run;
-        ASSERT_TRUE(record);
+        const Checkpoint checkpoint = read_checkpoint(folder_.path("c"));
+        const std::optional<RunRecord>& record = checkpoint.run;
+        ASSERT_TRUE(record && checkpoint.measures && checkpoint.observer);
         EXPECT_GE(frames, record->next_frame);
         const auto covers = [](const std::string& file, const std::string& whole, std::uint64_t bytes) {
             return file.size() >= bytes && whole.compare(0, bytes, file, 0, bytes) == 0;
         };
         EXPECT_TRUE(covers(folder_.read("b.xyz"), trajectory_, record->trajectory_bytes));
         EXPECT_TRUE(covers(folder_.read("b.csv"), events_, record->events_bytes));
+        EXPECT_TRUE(covers(folder_.read("b.obs"), rows_, checkpoint.measures->observables_bytes));
     }
 
     void expect_end() const {
         EXPECT_EQ(summary_value(folder_.read("b.json"), "state_hash"), hash_);
         EXPECT_TRUE(folder_.read("b.xyz") == trajectory_);
         EXPECT_TRUE(folder_.read("b.csv") == events_);
+        EXPECT_TRUE(folder_.read("b.obs") == rows_);
+        EXPECT_TRUE(folder_.read("b.str") == structure_);
     }
 
     void finish() const {
@@ -99,27 +105,30 @@ class KilledRun {
         for (const std::string& name : folder_.names()) {
             const bool is_part = name.ends_with(".part");
             const bool is_known = name == "s.json" || name == "c" || name.starts_with("a.") ||
-                                  name == "b.xyz" || name == "b.csv" || name == "b.json";
+                                  name == "b.xyz" || name == "b.csv" || name == "b.obs" || name == "b.str" ||
+                                  name == "b.json";
             EXPECT_TRUE(is_part || is_known) << name;
             if (is_part) fs::remove(folder_.path(name));
         }
     }
     void start_over() const {
-        for (const char* const name : {"b.xyz", "b.csv", "b.json", "c"}) fs::remove(folder_.path(name));
+        for (const char* const name : {"b.xyz", "b.csv", "b.obs", "b.str", "b.json", "c"})
+            fs::remove(folder_.path(name));
     }
 
  private:
     static Words words(const std::string& name) {
-        Words all = {"run",          "s.json",      "--quiet",     "--until", "400",
-                     "--trajectory", name + ".xyz", "--every",     "5",       "--events",
-                     name + ".csv",  "--summary",   name + ".json"};
+        Words all = {
+            "run",          "s.json",        "--quiet",     "--until",     "400",         "--trajectory",
+            name + ".xyz",  "--every",       "5",           "--events",    name + ".csv", "--summary",
+            name + ".json", "--observables", name + ".obs", "--structure", name + ".str"};
         if (name == "b") all.insert(all.end(), {"--checkpoint", "c", "--checkpoint-every", "1.7"});
         return all;
     }
 
     Folder folder_;
     double seconds_ = 0;
-    std::string trajectory_, events_, hash_;
+    std::string trajectory_, events_, rows_, structure_, hash_;
 };
 
 TEST(Kill, WhatIsLeftIsWholeAndLeadsToTheSameEnd) {

@@ -82,7 +82,6 @@ TEST(Observation, WhatDoesNotFitIsOneLine) {
     expect_refused({"--structure", "o.json"}, 2, "--structure requires --every");
     expect_refused({"--observables", "o.csv", "--every", "1", "--average-from", "1"}, 2,
                    "--average-from requires --structure");
-    expect_refused({"--observables", "o.csv", "--every", "1", "--checkpoint", "c"}, 2, "keeps no measures");
     expect_refused({"--observables", "o", "--structure", "o", "--every", "1"}, 2, "the same file");
     expect_refused({"--observables", "no/o.csv", "--every", "1"}, 1, "no/o.csv");
     EXPECT_EQ(folder.names(), std::vector<std::string>{"s.json"});

@@ -52,7 +52,12 @@ TEST(Program, WrongUsageIsOneLineAndStatusTwo) {
     folder.write("s.json", kOneBall);
     expect_one_error(folder.run({}), 2, "no command");
     expect_one_error(folder.run({"simulate"}), 2, "'simulate' is no command");
+    expect_one_error(folder.run({"rum"}), 2, "'rum' is no command, did you mean run?");
+    expect_one_error(folder.run({"s.json", "--quiet"}), 2, "did you mean carom run s.json?");
     expect_one_error(folder.run({"run"}), 2, "SCENE");
+    expect_one_error(folder.run({"run", "s.json", "--picutre", "x.png"}), 2,
+                     "--picutre: no option of carom run, did you mean --picture?");
+    expect_one_error(folder.run({"run", "s.json", "t.json"}), 2, "not expected: t.json");
     expect_one_error(folder.run({"run", "s.json", "--frobnicate"}), 2, "--frobnicate");
     expect_one_error(folder.run({"run", "s.json", "--until", "soon"}), 2, "--until");
     expect_one_error(folder.run({"run", "s.json", "--until", "nan"}), 2, "--until");
@@ -111,8 +116,6 @@ TEST(Program, WritesWhoComesIntoSensors) {
 
     folder.write("none.json", kOneBall);
     expect_one_error(folder.run({"run", "none.json", "--sensings", "in.csv"}), 2, "this has none");
-    expect_one_error(folder.run({"run", "s.json", "--sensings", "in.csv", "--checkpoint", "c"}), 2,
-                     "--checkpoint");
     expect_one_error(folder.run({"run", "s.json", "--sensings", "s.json"}), 2, "overwrite the scene");
     expect_one_error(folder.run({"run", "s.json", "--method", "empirical"}), 1, "sensors: must be none");
 }

@@ -39,6 +39,8 @@ const std::map<std::string, std::string> messages = {
      R"(line 3, column 9: syntax error while parsing object - unexpected string literal; expected '}' (is a comma missing before it?))"},
     {"comma_too_many",
      R"(line 5, column 5: syntax error while parsing value - unexpected ']'; expected '[', '{', or a literal (is there a comma too many before it?))"},
+    {"comment",
+     R"(line 2, column 14: syntax error while parsing value - invalid literal; last read: '"balls": [ /' (JSON has no comments))"},
     {"deep", R"(balls[0][0][0][0][0][0][0][0][0]: is nested too deeply)"},
     {"domain_inside_out",
      R"(domain.max: must be greater than min on both axes, is [0, 10] with min [10, 0])"},

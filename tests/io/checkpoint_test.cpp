@@ -65,6 +65,14 @@ Checkpoint any_checkpoint(std::uint64_t seed, std::size_t balls) {
         c.run = RunRecord{
             any_finite(generator), any_pair(generator), any_finite(generator), generator(), generator(),
             any_finite(generator), generator()};
+    if (seed % 7 < 3) c.sensings_bytes = generator();
+    if (seed % 9 < 4) {
+        const std::uint64_t bytes = generator();
+        const std::uint64_t next = generator();
+        c.measures = MeasuresRecord{bytes, next, any_finite(generator), any_finite(generator)};
+        std::vector<std::uint64_t>& words = c.observer.emplace();
+        for (std::uint64_t k = 0; k < seed % 6; ++k) words.push_back(generator());
+    }
     return c;
 }
 
@@ -131,6 +139,9 @@ TEST(Checkpoint, ReadsBackBitForBit) {
         EXPECT_EQ(read.snapshot.counts.steps, written.snapshot.counts.steps);
         EXPECT_EQ(read.snapshot.counts.missed_collisions, written.snapshot.counts.missed_collisions);
         EXPECT_EQ(read.run.has_value(), written.run.has_value());
+        EXPECT_EQ(read.sensings_bytes, written.sensings_bytes);
+        EXPECT_EQ(read.measures.has_value(), written.measures.has_value());
+        EXPECT_EQ(read.observer, written.observer);
     }
 }
 

@@ -265,6 +265,90 @@ TEST(Observer, RefusesOtherBallsAndEarlierTimes) {
     EXPECT_THROW((void)observer.sample(other), std::invalid_argument);
 }
 
+/// A world, an observer, and what it tells.
+struct Watch {
+    Watch(const Scene& scene, const WorldOptions& options, const ObserverOptions& wanted)
+        : world(scene, options), observer(world, wanted) {
+        listen();
+    }
+    Watch(const Scene& scene, const WorldOptions& options, const ObserverOptions& wanted, const Watch& before)
+        : world(scene, options, before.world.snapshot()), observer(world, wanted) {
+        observer.restore(before.observer.save());
+        listen();
+    }
+    void listen() {
+        world.on_collision([this](const Collision& c) { observer.record(c); });
+    }
+    void sample_at(double time) {
+        world.advance_to(time);
+        rows += to_csv(observer.sample(world));
+    }
+    World world;
+    Observer observer;
+    std::string rows = {};
+};
+
+// Saved between two samples, at a sample, before the first, and again; another world goes on by other
+// options.
+TEST(Observer, GoesOnFromWhatWasSaved) {
+    const ObserverOptions wanted = {
+        .records_collisions = true, .average_from = 0.5, .lags = 5, .tracked = 40};
+    for (const Boundary boundary : {Boundary::kPeriodic, Boundary::kWall}) {
+        const Scene scene = test::gas(5, {.boundary_x = boundary});
+        Watch whole(scene, {.threads = 1}, wanted);
+        for (int k = 0; k <= 20; ++k) whole.sample_at(0.2 * k);
+        for (const double stop : {0.0, 0.1, 0.6, 0.75, 3.3}) {
+            SCOPED_TRACE(stop);
+            Watch first(scene, {.threads = 1}, wanted);
+            int k = 0;
+            for (; 0.2 * k <= stop && stop > 0; ++k) first.sample_at(0.2 * k);
+            first.world.advance_to(stop);
+            Watch second(scene, {.threads = 2, .domains = 3}, wanted, first);
+            Watch third(scene, {.threads = 1}, wanted, second);
+            for (; k <= 20; ++k) third.sample_at(0.2 * k);
+            EXPECT_EQ(first.rows + third.rows, whole.rows);
+            EXPECT_EQ(to_json(third.observer.structure()), to_json(whole.observer.structure()));
+        }
+    }
+}
+
+TEST(Observer, RefusesWordsThatAreNotItsOwn) {
+    const ObserverOptions wanted = {.profile_bins = 3, .lags = 3, .tracked = 4};
+    const Scene scene = test::gas(5, {.count = 16});
+    Watch watch(scene, {.threads = 1}, wanted);
+    for (int k = 0; k <= 6; ++k) watch.sample_at(k);
+    const std::vector<std::uint64_t> words = watch.observer.save();
+    const auto restore = [&](const ObserverOptions& options, std::span<const std::uint64_t> from) {
+        Observer(watch.world, options).restore(from);
+    };
+    restore(wanted, words);
+    for (std::size_t size = 0; size < words.size(); ++size)
+        EXPECT_THROW(restore(wanted, std::span(words).first(size)), std::invalid_argument);
+    std::vector<std::uint64_t> longer = words;
+    longer.push_back(0);
+    EXPECT_THROW(restore(wanted, longer), std::invalid_argument);
+    for (const ObserverOptions& other :
+         {ObserverOptions{.records_collisions = true, .profile_bins = 3, .lags = 3, .tracked = 4},
+          {.average_from = 1, .profile_bins = 3, .lags = 3, .tracked = 4},
+          {.profile_bins = 4, .lags = 3, .tracked = 4},
+          {.profile_bins = 3, .lags = 2, .tracked = 4},
+          {.profile_bins = 3, .lags = 3, .tracked = 5},
+          {.profile_bins = 3, .lags = 3, .tracked = 4, .hexatic = false},
+          {.profile_bins = 3, .lags = 3, .tracked = 4, .structure = false}})
+        EXPECT_THROW(restore(other, words), std::invalid_argument);
+    // Whatever a word becomes: taken or refused, and no more memory than the words fill.
+    for (std::size_t at = 0; at < words.size(); ++at) {
+        for (const std::uint64_t word : {~std::uint64_t{0}, std::uint64_t{1} << 40U, std::uint64_t{2}}) {
+            std::vector<std::uint64_t> changed = words;
+            changed[at] = word;
+            try {
+                restore(wanted, changed);
+            } catch (const std::invalid_argument&) {
+            }
+        }
+    }
+}
+
 TEST(Observer, LeavesOutStaticBallsAndEarlySamples) {
     Scene scene = test::gas(1, {.count = 16});
     scene.balls[3].is_static = true;

@@ -232,6 +232,37 @@ TEST(Edits, FiltersLetBallsPass) {
     EXPECT_EQ(told[0].j, 2);
 }
 
+// Between two times balls are where their last events have put them, each at another time.
+TEST(Edits, ListenersMustNotLookAtTheBalls) {
+    for (const int domains : {1, 3}) {
+        World world(gas(3, {.count = 60, .packing = 0.4}), {.threads = 1, .domains = domains});
+        world.set_sensors({{.corners = {{0, 0}, {0, 100}}}});
+        int refused = 0;
+        const auto look = [&] {
+            EXPECT_THROW(static_cast<void>(world.ball(0)), std::logic_error);
+            EXPECT_THROW(static_cast<void>(world.positions()), std::logic_error);
+            EXPECT_THROW(static_cast<void>(world.energy()), std::logic_error);
+            EXPECT_THROW(static_cast<void>(world.snapshot()), std::logic_error);
+            EXPECT_THROW(static_cast<void>(world.balls_at({0, 0})), std::logic_error);
+            EXPECT_THROW(static_cast<void>(world.balls_in_sensor(0)), std::logic_error);
+            EXPECT_THROW(world.on_collision(nullptr), std::logic_error);
+            EXPECT_THROW(world.set_sensors({}), std::logic_error);
+            ++refused;
+        };
+        world.on_collision([&look](const Collision&) { look(); });
+        world.advance_to(1);
+        ASSERT_GT(refused, 0);
+        const int hits = refused;
+        world.on_collision(nullptr);
+        world.on_sensing([&look](const Sensing&) { look(); });
+        world.advance_to(2);
+        EXPECT_GT(refused, hits);
+        World plain(gas(3, {.count = 60, .packing = 0.4}), {.threads = 1});
+        plain.advance_to(2);
+        EXPECT_EQ(world.positions(), plain.positions());
+    }
+}
+
 TEST(Edits, AreRefusedFromAListener) {
     World world(gas(3, {.count = 60, .packing = 0.4}), {.threads = 1});
     const Snapshot start = world.snapshot();

@@ -87,6 +87,25 @@ TEST_P(Queries, NearestBall) {
     }
 }
 
+TEST_P(Queries, NearestBallButOne) {
+    const std::vector<Ball> balls = world_.balls();
+    const std::vector<std::uint32_t> ids = world_.ball_ids();
+    const std::vector<Vec2> shifts = images(world_.domain(), 3);
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        double least = kInfinity;
+        for (std::size_t j = 0; j < balls.size(); ++j)
+            for (const Vec2& shift : shifts)
+                if (j != i)
+                    least = std::min(
+                        least, (balls[j].position + shift - balls[i].position).norm() - balls[j].radius);
+        const std::optional<NearestBall> found = world_.nearest_ball(balls[i].position, ids[i]);
+        ASSERT_TRUE(found);
+        EXPECT_NE(found->id, ids[i]);
+        EXPECT_NEAR(found->distance, least, 1e-12 * 100);  // coordinates of up to 100
+    }
+    EXPECT_THROW(static_cast<void>(world_.nearest_ball({0, 0}, 1'000'000)), std::out_of_range);
+}
+
 /// When a walk along the ray, in pieces of 1e-3, first stands in a disc or has crossed a wall or side.
 TEST_P(Queries, RaysMeetWhatAWalkMeets) {
     const std::vector<Ball> balls = world_.balls();

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <carom/core/snapshot.hpp>
 
@@ -22,9 +23,21 @@ struct RunRecord {
     std::uint64_t events_bytes = 0;  ///< whole lines; 0 where no list of events is kept
 };
 
+/// What it has measured on the way.
+struct MeasuresRecord {
+    std::uint64_t observables_bytes = 0;  ///< whole rows; 0 where none are kept
+    std::uint64_t next_sample = 0;        ///< is due at so many intervals
+    double interval = 0;
+    double last_sample = -1;  ///< a time; -1 before the first
+};
+
 struct Checkpoint {
-    Snapshot snapshot;
-    std::optional<RunRecord> run;
+    Snapshot snapshot = {};
+    // Of `carom run`.
+    std::optional<RunRecord> run = {};
+    std::optional<std::uint64_t> sensings_bytes = {};  ///< whole lines of the list of sensings
+    std::optional<MeasuresRecord> measures = {};
+    std::optional<std::vector<std::uint64_t>> observer = {};  ///< as Observer::save() gives it
 };
 
 /// Puts a checkpoint in the file's place, whole or not at all: see AtomicFile. Throws FileError.

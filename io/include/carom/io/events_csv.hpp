@@ -3,13 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
 
 #include <carom/core/vector.hpp>
-#include <carom/io/atomic_file.hpp>
-#include <carom/io/growing_file.hpp>
+#include <carom/io/row_file.hpp>
 
 namespace carom {
 
@@ -30,22 +26,16 @@ class EventsCsv {
 
     /// A file that appears under its name with commit().
     explicit EventsCsv(const std::filesystem::path& path);
-    /// A file that grows, from the start or, where `kept` is not 0, after its first `kept` bytes: see
-    /// GrowingFile.
+    /// A file that grows: see RowFile.
     EventsCsv(const std::filesystem::path& path, std::uint64_t kept);
     /// Numbers have as many digits as it takes to read back the same bits. Rows are buffered.
     void write(const Row& row);
-    void commit();
+    void commit() { rows_.commit(); }
     /// Of a file that grows: forces the rows to the disk and gives the bytes that they take.
-    std::uint64_t sync();
+    std::uint64_t sync() { return rows_.sync(); }
 
  private:
-    void put_header();
-    void flush();
-
-    std::optional<AtomicFile> whole_;
-    std::unique_ptr<GrowingFile> growing_;  // where that is not
-    std::string buffer_;
+    RowFile rows_;
 };
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <carom/parallel/world.hpp>
@@ -85,6 +86,13 @@ class Observer {
     /// std::invalid_argument where the number of balls has changed or the time has not grown.
     Sample sample(const World& world);
     [[nodiscard]] Structure structure() const;
+
+    /// All that has been measured so far, for another observer of the same world and options to go on from
+    /// with the same bits: words whose meaning is the library's own. Up to 32 bytes * lags * tracked.
+    [[nodiscard]] std::vector<std::uint64_t> save() const;
+    /// Throws std::invalid_argument where the words were saved with other options or of other balls; the
+    /// observer is of no use then.
+    void restore(std::span<const std::uint64_t> words);
 
  private:
     class State;

@@ -162,8 +162,9 @@ class World {
     // SceneError on values that no scene may have, and on what would overlap (unless the scene allows that);
     // std::out_of_range on ids that are not there. Not to be called from a listener.
 
-    /// All at once, at the cost of setting up a world of so many balls: one call with many is far cheaper
-    /// than many with one.
+    /// All at once. Where moving balls get other positions and velocities and nothing else changes the cost
+    /// is theirs; else it is that of setting up a world of so many balls, and one call with many is far
+    /// cheaper than many with one.
     Added apply(const Edits& edits);
     std::uint32_t add_ball(const Ball& ball);
     void remove_ball(std::uint32_t id);
@@ -186,8 +187,9 @@ class World {
     /// Balls whose discs touch the box, and those that touch a disc (a point, where its radius is 0).
     [[nodiscard]] std::vector<std::uint32_t> balls_in(const Box& box) const;
     [[nodiscard]] std::vector<std::uint32_t> balls_at(const Vec2& centre, double radius = 0) const;
-    /// None where there is no ball.
-    [[nodiscard]] std::optional<NearestBall> nearest_ball(const Vec2& point) const;
+    /// None where there is no ball. `except` leaves one out: who asks from its own place.
+    [[nodiscard]] std::optional<NearestBall> nearest_ball(const Vec2& point,
+                                                          std::optional<std::uint32_t> except = {}) const;
     /// The first ball, wall or walled side along a ray of that length. Throws std::invalid_argument where
     /// the direction is zero, or the way longer than a million periods of a periodic box.
     [[nodiscard]] std::optional<RayHit> cast_ray(const Vec2& from, const Vec2& direction,
@@ -207,7 +209,9 @@ class World {
     /// ends where balls bounce off tells what rounding makes of it. An empty function turns it off.
     void on_sensing(std::function<void(const Sensing&)> listener);
 
-    /// Called for every collision in the order of events. An empty function turns it off.
+    /// Called for every collision in the order of events, while the world moves: a listener must not look at
+    /// its balls nor change it (std::logic_error), what it is told is what holds. An empty function turns it
+    /// off.
     void on_collision(std::function<void(const Collision&)> listener);
 
  private:
