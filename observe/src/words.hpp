@@ -57,9 +57,7 @@ class WordSource {
     void require_end() const {
         if (!words_.empty()) fail();
     }
-    [[noreturn]] static void fail() {
-        throw std::invalid_argument("it was measured otherwise");
-    }
+    [[noreturn]] static void fail() { throw std::invalid_argument("it was measured otherwise"); }
 
  private:
     void take(std::uint64_t& number) {

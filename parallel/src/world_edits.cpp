@@ -229,11 +229,16 @@ bool World::State::start_anew(const Edits& edits) {
         if (c.position) change.position = c.position;
         if (c.velocity) change.velocity = c.velocity;
     }
+    // A pass over all balls, which a kick alone has no need of.
+    const bool needs_states =
+        !bodies().attractors.empty() || std::ranges::any_of(changes, [](const auto& change) {
+            return change.second.position || !change.second.velocity;
+        });
     Members<Ball> members;
     std::vector<NewStart> starts;
     for (const auto& [i, c] : changes) {
         Member<Ball>& m = members.emplace_back();
-        m = {c.id, i, false, false, false, ball(i, states()[i])};
+        m = {c.id, i, false, false, false, ball(i, needs_states ? states()[i] : BallState{})};
         change(m, c);
         starts.push_back({i, c.position, c.velocity});
     }
