@@ -76,7 +76,7 @@ BENCHMARK(engine_frames)
 
 // Frames of a tenth of a mean free time in which a player has a hand: one ball's velocity, edited in place,
 // or its mass, which makes the world anew.
-enum class Edit : std::int64_t { kNone, kVelocity, kMass };
+enum class Edit : std::uint8_t { kNone, kVelocity, kMass };
 void engine_edited_frames(benchmark::State& state) {
     constexpr double kPacking = 0.3;
     const auto balls = static_cast<std::uint32_t>(state.range(0));
