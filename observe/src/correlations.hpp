@@ -38,8 +38,10 @@ class Correlations {
     template <class Words>
     void visit(Words& words) {
         words(interval_);
+        // NOLINTBEGIN(misc-const-correctness): not where they are read
         for (Moment& m : moments_) words(m.time, m.position, m.velocity);
         for (Sums& s : sums_) words(s.lag, s.displacement, s.velocity, s.origins);
+        // NOLINTEND(misc-const-correctness)
     }
     [[nodiscard]] bool follows(double time) const;
     void correlate(const Moment& now);
