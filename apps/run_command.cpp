@@ -78,14 +78,13 @@ std::optional<Checkpoint> checkpoint_of(const RunOptions& options, double until)
     const auto refuse = [&options](const std::string& why) { throw FileError(options.resume, why); };
     if (checkpoint.snapshot.time > until)
         refuse(fmt::format("is at time {}, after the end at {}", checkpoint.snapshot.time, until));
-    if (const std::optional<RunRecord>& run = checkpoint.run; run && run->trajectory_bytes > 0 &&
-                                                              !options.trajectory.empty() &&
-                                                              *options.every != run->frame_interval)
-        refuse(
-            fmt::format("covers a trajectory with --every {}, not {}", run->frame_interval, *options.every));
+    const double every = options.every.value_or(0);  // is given where there is a trajectory, or measures
+    if (const std::optional<RunRecord>& run = checkpoint.run;
+        run && run->trajectory_bytes > 0 && !options.trajectory.empty() && every != run->frame_interval)
+        refuse(fmt::format("covers a trajectory with --every {}, not {}", run->frame_interval, every));
     if (const std::optional<MeasuresRecord>& measures = checkpoint.measures;
-        measures && options.observation.is_wanted() && *options.every != measures->interval)
-        refuse(fmt::format("covers measures with --every {}, not {}", measures->interval, *options.every));
+        measures && options.observation.is_wanted() && every != measures->interval)
+        refuse(fmt::format("covers measures with --every {}, not {}", measures->interval, every));
     return checkpoint;
 }
 
