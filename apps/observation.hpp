@@ -42,8 +42,10 @@ class Observation {
     void sample(const World& world);
     /// Forces the rows to the disk and gives the bytes that they take; 0 where there are none.
     std::uint64_t sync();
-    /// What an observer goes on from. After begin().
-    [[nodiscard]] std::vector<std::uint64_t> save() const { return observer_->save(); }
+    /// What an observer goes on from; nothing before begin().
+    [[nodiscard]] std::vector<std::uint64_t> save() const {
+        return observer_ ? observer_->save() : std::vector<std::uint64_t>();
+    }
     void commit();
 
  private:
