@@ -1,7 +1,5 @@
 #include "checkpointer.hpp"
 
-#include <cmath>
-
 namespace carom::app {
 
 Checkpointer::Checkpointer(const World& world, const RunOptions& options, const Checkpoint& before)
@@ -14,7 +12,8 @@ Checkpointer::Checkpointer(const World& world, const RunOptions& options, const 
     }
     seconds_before_ = record.wall_seconds;
     const double interval = options.every.value_or(1);
-    const auto next = static_cast<std::uint64_t>(std::ceil(world.time() / interval));
+    auto next = static_cast<std::uint64_t>(world.time() / interval);
+    while (double(next) * interval < world.time()) ++next;
     if (record.trajectory_bytes == 0) {
         record.frame_interval = interval;
         record.next_frame = next;

@@ -2,10 +2,14 @@
 #include "run.hpp"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <system_error>
 
 #include <carom/io/summary.hpp>
 #include <carom/io/xyz.hpp>
@@ -23,6 +27,16 @@ namespace {
 template <class File, class... Kept>
 void open_if_named(std::optional<File>& file, const std::string& path, Kept... kept) {
     if (!path.empty()) file.emplace(path, kept...);
+}
+
+/// Throws FileError where a file could not be made or changed; leaves what is there alone.
+void require_writable(const std::string& path) {
+    std::error_code ignored;
+    if (path.empty()) return;
+    if (!std::filesystem::exists(path, ignored))
+        const AtomicFile can_be_made(path);
+    else if (::access(path.c_str(), W_OK) != 0)
+        throw FileError(path, "cannot be written: " + std::generic_category().message(errno));
 }
 
 std::uint64_t peak_memory_bytes() {
@@ -185,8 +199,11 @@ RunOutputs::RunOutputs(const RunOptions& options, const Checkpoint& done) {
     open_if_named(final_state, options.final_state);
     open_if_named(picture, options.picture);
     if (options.summary != "-") summary.emplace(options.summary);
-    // These last: they may empty their files, which is not to happen when another output fails. A list of
-    // events that a checkpoint is to cover has to be there when the run is killed.
+    // These last: they may empty their files, which is not to happen when another output fails. A list that a
+    // checkpoint is to cover has to be there when the run is killed.
+    for (const std::string& path :
+         {options.events, options.sensings, options.observation.observables, options.trajectory})
+        require_writable(path);
     const RunRecord run = done.run.value_or(RunRecord{});
     const auto open_list = [&options](auto& list, const std::string& path, std::uint64_t kept) {
         if (!options.checkpoint.empty() || kept > 0)

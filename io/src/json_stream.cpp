@@ -76,11 +76,14 @@ class Builder : public nlohmann::json_sax<Json> {
             rule.remove_prefix(start);
         else if (const auto bracket = rule.find("] "); bracket != std::string_view::npos)
             rule.remove_prefix(bracket + 2);
-        if (const auto last_read = rule.find("; last read: "); last_read != std::string_view::npos)
-            throw SceneError(
-                where(position),
-                fmt::format("{}{}{}", rule.substr(0, last_read + 13), quotable(rule.substr(last_read + 13)),
-                            rule.ends_with("/'") ? " (JSON has no comments)" : ""));
+        if (const auto last_read = rule.find("; last read: "); last_read != std::string_view::npos) {
+            const std::string_view read = rule.substr(last_read + 13);
+            const bool is_slash =
+                rule.find("invalid literal") < last_read && read.find("/'") != std::string_view::npos;
+            throw SceneError(where(position),
+                             fmt::format("{}{}{}", rule.substr(0, last_read + 13), quotable(read),
+                                         is_slash ? " (JSON has no comments)" : ""));
+        }
         throw SceneError(where(position), fmt::format("{}{}", rule, likely_cause(rule)));
     }
 

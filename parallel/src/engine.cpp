@@ -50,7 +50,7 @@ class SerialEngine final : public Engine {
         loop_->predict_all(&executor_);
         counts_.events = loop_->events;
     }
-    bool start_anew(const Time& t, std::span<const NewStart> starts) override {
+    bool start_anew(const Time& t, std::span<NewStart> starts) override {
         // The loop has the balls in the order of their ids.
         std::vector<NewStart> here(starts.begin(), starts.end());
         for (NewStart& start : here) {
@@ -58,6 +58,7 @@ class SerialEngine final : public Engine {
             start.ball = static_cast<std::uint32_t>(at - loop_->records().begin());
         }
         loop_->start_anew(t, here);
+        for (std::size_t k = 0; k < starts.size(); ++k) starts[k].state = loop_->state(here[k].ball, t);
         return true;
     }
     void read(const Time& t, std::span<BallState> states) const override {

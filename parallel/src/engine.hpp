@@ -43,7 +43,7 @@ class Engine {
     virtual void renew_field(const Time& t) = 0;
     /// Starts balls anew at `t`, the time advanced to last, none twice. False where the engine has no such
     /// way, and nothing is done.
-    [[nodiscard]] virtual bool start_anew(const Time& t, std::span<const NewStart> starts) = 0;
+    [[nodiscard]] virtual bool start_anew(const Time& t, std::span<NewStart> starts) = 0;
     /// The moving balls' states at `t`, the time advanced to last: states[id].
     virtual void read(const Time& t, std::span<BallState> states) const = 0;
     /// The numbers of the domains that own the moving balls: domains[id]. Left alone where there is one loop.

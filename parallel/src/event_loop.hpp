@@ -76,6 +76,7 @@ struct NewStart {
     std::uint32_t ball = 0;
     std::optional<Vec2> position = {};
     std::optional<Vec2> velocity = {};
+    BallState state = {};  ///< where it is then: set by who starts it
 };
 /// Anchors it at `t`.
 void start_anew(const Bodies& bodies, Anchor& anchor, Periods& periods, const Vec2& acceleration,

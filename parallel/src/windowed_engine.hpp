@@ -37,7 +37,7 @@ class WindowedEngine final : public Engine {
 
     void advance_to(const Time& end, const Time& horizon) override;
     void renew_field(const Time& t) override;
-    bool start_anew(const Time& t, std::span<const NewStart> starts) override;
+    bool start_anew(const Time& t, std::span<NewStart> starts) override;
     void read(const Time& t, std::span<BallState> states) const override;
     void read_domains(std::span<std::uint32_t> domains) const override;
     void save(const Time& t, Snapshot& snapshot) const override;
@@ -139,8 +139,9 @@ class WindowedEngine final : public Engine {
     Time window_end_;                // >= now_
     bool in_window_ = false;         // whether results are there
     bool window_is_closed_ = false;  // whether events at window_end_ are resolved
-    bool is_edited_ = false;         // since it was advanced last
-    bool cuts_windows_ = false;      // whether a window ends where the world stops: edits are to be expected
+    // After an edit others are to be expected where the world stops next: there windows end.
+    int cuts_left_ = 0;  // stops for which that holds
+    bool cuts_windows_ = false;
     double window_length_;
     std::uint64_t disagreeing_ = 0;  // domains that had to go through the present window again
     double growth_;

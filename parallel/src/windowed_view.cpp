@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <queue>
 #include <tuple>
-#include <utility>
 
 #include "windowed_engine.hpp"
 
 namespace carom {
 
 void WindowedEngine::advance_to(const Time& end, const Time& horizon) {
-    cuts_windows_ = std::exchange(is_edited_, false);
+    cuts_windows_ = cuts_left_ > 0;
+    if (cuts_windows_) --cuts_left_;
     while (!in_window_ || window_end_ < end || (window_end_ == end && !window_is_closed_)) {
         if (in_window_) tell_until({window_end_, window_is_closed_});
         next_window(end, horizon);
@@ -83,11 +83,12 @@ void WindowedEngine::renew_field(const Time& t) {
     predict_anew(true);
 }
 
-bool WindowedEngine::start_anew(const Time& t, std::span<const NewStart> starts) {
+bool WindowedEngine::start_anew(const Time& t, std::span<NewStart> starts) {
+    constexpr int kStopsAfterEdit = 4;
     rewind_to_now();
     commit();
     window_start_ = t;
-    is_edited_ = true;
+    cuts_left_ = kStopsAfterEdit;
     std::vector<std::uint32_t> start_of(bodies_.count, kNowhere);
     for (std::uint32_t k = 0; k < starts.size(); ++k) start_of[starts[k].ball] = k;
     for_each_domain([&](std::size_t k) {
@@ -97,14 +98,16 @@ bool WindowedEngine::start_anew(const Time& t, std::span<const NewStart> starts)
             BallRecord& r = d.records[i];
             if (start_of[r.id] == kNowhere) continue;
             has_some = true;
-            carom::start_anew(bodies_, r.anchor, r.periods,
-                              d.extras.empty() ? Vec2(Vec2::Zero()) : d.extras[i].acceleration, t,
-                              starts[start_of[r.id]]);
+            NewStart& start = starts[start_of[r.id]];
+            BallExtra ignored;
+            Vec2& acceleration = (d.extras.empty() ? ignored : d.extras[i]).acceleration;
+            carom::start_anew(bodies_, r.anchor, r.periods, acceleration, t, start);
             ++r.anchor.stamp;
             r.next = {.time = kUnknown};  // the domains find it when they have their copies
             d.cells[i] = fold_periodic(bodies_.grid, r.anchor.cell);
             if (bodies_.accelerates_each())
-                d.extras[i].acceleration = bodies_.acceleration_at(r.id, {r.anchor.x, r.anchor.y});
+                acceleration = bodies_.acceleration_at(r.id, {r.anchor.x, r.anchor.y});
+            start.state = state_at(bodies_, r.anchor, r.periods, acceleration, t);
         }
         if (has_some) index_records(d);
     });

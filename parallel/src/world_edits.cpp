@@ -215,11 +215,15 @@ bool are_new_starts(const Edits& edits) {
 }  // namespace
 
 bool World::State::start_anew(const Edits& edits) {
-    // Where all were at rest there may be losses without a contact time, until something moves.
+    if (!are_new_starts(edits) || has_stopped_midway_) return false;
+    // The scene's beginning tells the times of contact and rest; where all is at rest then, or no force is
+    // felt, it may tell none, and they follow from what moves later.
     const Physics& physics = bodies().physics;
-    const bool may_get_contact_time =
+    const bool has_no_contact_time =
         physics.loses_energy && physics.contact_time == 0 && !cast->rules.contact_time;
-    if (!are_new_starts(edits) || cast->rules.allows_overlap || may_get_contact_time) return false;
+    const bool has_no_rest_time = physics.rest_time == 0 && bodies().acceleration() != Acceleration::kNone;
+    if (physics.empirical || has_no_contact_time || has_no_rest_time || cast->rules.allows_overlap)
+        return false;
     std::map<std::uint32_t, BallChange> changes;  // by index; of two of one ball the later one counts
     for (const BallChange& c : edits.changed_balls) {
         const std::uint32_t i = index_of_ball(c.id);
@@ -240,7 +244,6 @@ bool World::State::start_anew(const Edits& edits) {
         Member<Ball>& m = members.emplace_back();
         m = {c.id, i, false, false, false, ball(i, needs_states ? states()[i] : BallState{})};
         change(m, c);
-        starts.push_back({i, c.position, c.velocity});
     }
     check_edited(members, {}, edits, cast->rules);
     for (const Member<Ball>& m : members)  // may be refused as well, and nothing is half done
@@ -255,15 +258,20 @@ bool World::State::start_anew(const Edits& edits) {
         }
         check_overlaps(all, cast->rules, placed);
     }
+    for (const Member<Ball>& m : members) {
+        BallChange& c = changes.at(m.was);
+        if (c.position && physics.in_float) c.position = rounded_to_float(*c.position);
+        starts.push_back({m.was, c.position, c.velocity});
+    }
     if (!engine->start_anew(now, starts)) return false;
 
     is_edited = true;
     Hash edited{hash};
     for (const Member<Ball>& m : members) edited << std::uint64_t{m.id} << m.body.position << m.body.velocity;
     hash = (edited << seconds).value;
-    if (has_moves) forget();
-    for (const Member<Ball>& m : members)
-        if (is_read_) states_[m.was].velocity = bodies().held_velocity(m.body.velocity);
+    if (has_moves) places_.reset();
+    for (const NewStart& start : starts)
+        if (is_read_) states_[start.ball] = start.state;
     if (watch_) watch_->take(*engine, {now}, sensing);
     return true;
 }
@@ -345,7 +353,11 @@ Added World::State::apply(const Edits& edits) {
     s.edited = next;
     s.field_updates = rules.attractors.empty() ? 0 : updates_until(seconds, rules.field_interval);
     std::unique_ptr<Engine> made = make_from(*next, s);
-    if (ahead) engine->advance_to(now, now);  // and whoever listens is told
+    if (ahead) {  // and whoever listens is told
+        is_moving_ = true;
+        engine->advance_to(now, now);
+        is_moving_ = false;
+    }
     const std::vector<BallState> before = watch_ ? all : std::vector<BallState>();
     const std::shared_ptr<const Cast> past = cast;  // until the watch has gone on
     continue_with(next, std::move(made), s);

@@ -157,6 +157,7 @@ void World::State::continue_with(std::shared_ptr<const Cast> next, std::unique_p
                                  const Snapshot& s) {
     if (listener) made->listen(listener);
     engine = std::move(made);
+    has_stopped_midway_ = false;
     if (watch_) follow_flights();
     cast = std::move(next);
     hash = s.scene_hash;
@@ -254,6 +255,7 @@ void World::State::advance_to(double time) {
                                     " is more than a thousand million of the scene's field_interval away");
     const Telling telling(*this, true);
     forget();
+    has_stopped_midway_ = true;
     Time horizon = kNever;
     if (!bodies().attractors.empty()) {
         for (;; ++field_updates) {
@@ -265,6 +267,7 @@ void World::State::advance_to(double time) {
         }
     }
     engine->advance_to(end, horizon);
+    has_stopped_midway_ = false;
     now = end;
     seconds = time;
 }

@@ -158,6 +158,7 @@ class World::State {
 
     bool is_telling_ = false;
     bool is_moving_ = false;
+    bool has_stopped_midway_ = false;     // a listener's exception, or a wedged ball, has ended an advance
     std::unique_ptr<SensorWatch> watch_;  // where somebody listens
     mutable std::mutex reading_;
     mutable bool is_read_ = false;

@@ -192,6 +192,18 @@ TEST(Checkpoints, WhatCannotBeGoneOnFromIsRefusedAndLeftAlone) {
     EXPECT_EQ(folder.read("short.csv"), events.substr(0, 100));
 }
 
+// What lists held before is lost only to a run that begins.
+TEST(Checkpoints, AnOutputThatCannotBeLeavesTheOthers) {
+    const Folder folder;
+    folder.write("s.json", busy_scene("wall"));
+    folder.write("e.csv", "of another run\n");
+    expect_one_error(folder.run({"run", "s.json", "--checkpoint", "c", "--events", "e.csv", "--observables",
+                                 "none/o.csv", "--every", "1"}),
+                     1, "none/o.csv");
+    EXPECT_EQ(folder.read("e.csv"), "of another run\n");
+    EXPECT_EQ(folder.names(), (Words{"e.csv", "s.json"}));
+}
+
 TEST(Checkpoints, WrongUsage) {
     const Folder folder;
     folder.write("s.json", kOneBall);

@@ -232,6 +232,100 @@ TEST(Edits, FiltersLetBallsPass) {
     EXPECT_EQ(told[0].j, 2);
 }
 
+// A force that is felt only later brings the time of rest with it.
+TEST(Edits, AForceThatIsFeltLaterWedgesNobody) {
+    Scene scene;
+    scene.attractors = {{.position = {0, 0}, .strength = 1}};
+    scene.field_interval = 0.01;
+    scene.balls = {{.position = {0, 0}}};  // nothing pulls it in the middle
+    scene.walls = {{.from = {-50, 3}, .to = {50, 3}}};
+    World world(scene);
+    world.advance_to(1);
+    world.set_position(0, {0, 3.5});  // it is pressed against the wall from now on
+    world.advance_to(2);
+    EXPECT_TRUE(world.validate().empty());
+}
+
+TEST(Edits, OfTheEmpiricalMethodAreCheckedWhereTheStepEnds) {
+    Scene scene;
+    scene.method = Method::kEmpirical;
+    scene.step = 1;
+    scene.domain = Domain{{{0, 0}, {20, 20}}, {Boundary::kWall, Boundary::kWall}, 1};
+    scene.balls = {{.position = {2, 5}, .velocity = {2, 0}}, {.position = {4, 5}}, {.position = {15, 15}}};
+    World world(scene);
+    int told = 0;
+    world.on_collision([&](const Collision&) {
+        ++told;
+        EXPECT_THROW(static_cast<void>(world.positions()), std::logic_error);
+    });
+    world.advance_to(0.99);
+    world.set_position(2, {3.99, 5.5});  // where the first ball would be had it met nobody
+    EXPECT_EQ(told, 1);
+    EXPECT_NEAR(world.ball(0).position.x(), 3, 1e-6);  // the tolerance
+}
+
+// What is shown after an edit does not depend on whether somebody looked before.
+TEST(Edits, LookingBeforeAnEditChangesNothing) {
+    Scene scene = gas(6, {.count = 100, .packing = 0.3});
+    scene.gravity = {0.3, -0.1};
+    World looked_at(scene);
+    World plain(scene);
+    std::mt19937_64 random(1);
+    for (int k = 1; k <= 100; ++k) {
+        looked_at.advance_to(0.05 * k);
+        plain.advance_to(0.05 * k);
+        static_cast<void>(looked_at.energy());
+        const auto ball = static_cast<std::uint32_t>(random() % 100);
+        const Vec2 velocity = k % 9 == 0 ? Vec2(-0.0, -0.0) : random_velocity(random, 1);
+        looked_at.set_velocity(ball, velocity);
+        plain.set_velocity(ball, velocity);
+        EXPECT_EQ(looked_at.energy(), plain.energy());
+        EXPECT_EQ(looked_at.unwrapped_positions(), plain.unwrapped_positions());
+        EXPECT_EQ(looked_at.state_hash(), plain.state_hash());
+    }
+}
+
+// The nearest floats of places at a periodic side that is none itself.
+TEST(Edits, PlacesInFloatAreThoseOfAWorldMadeAnew) {
+    Scene scene;
+    scene.precision = Precision::kFloat;
+    scene.domain = Domain{{{0.7, 0.1}, {4, 10.3}}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
+    scene.balls = {{.position = {2, 5}, .radius = 0.1}, {.position = {2, 8}, .radius = 0.1}};
+    for (const double x : {0.7, std::nextafter(0.7, 1.0), 3.9999999999999996, 3.99999999, 2.1})
+        for (const double y : {0.1, 0.10000000000000002, std::nextafter(10.3, 0.0), 5.3}) {
+            World in_place(scene);
+            World anew(scene);
+            in_place.set_position(0, {x, y});
+            static_cast<void>(
+                anew.apply({.changed_balls = {{.id = 0, .position = Vec2(x, y)}, {.id = 1, .mass = 1}}}));
+            EXPECT_EQ(in_place.positions(), anew.positions());
+            EXPECT_EQ(in_place.state_hash(), anew.state_hash());
+        }
+}
+
+// A listener's exception leaves the balls on their way; nothing goes on from there but what was kept.
+TEST(Edits, AreRefusedWhereAListenerHasEndedTheStep) {
+    for (const int domains : {1, 3}) {
+        World world(gas(3, {.count = 36, .packing = 0.4}), {.threads = 1, .domains = domains});
+        const Snapshot start = world.snapshot();
+        world.on_collision([](const Collision& c) {
+            if (c.time > 1) throw std::runtime_error("enough");
+        });
+        EXPECT_THROW(world.advance_to(5), std::runtime_error);
+        if (domains == 1) {
+            EXPECT_THROW(world.set_velocity(0, {1, 1}), SnapshotError);
+        }
+        world.on_collision(nullptr);
+        world.restore(start);
+        world.set_velocity(0, {1, 1});
+        world.advance_to(5);
+        World plain(gas(3, {.count = 36, .packing = 0.4}));
+        plain.set_velocity(0, {1, 1});
+        plain.advance_to(5);
+        EXPECT_EQ(world.state_hash(), plain.state_hash());
+    }
+}
+
 // Between two times balls are where their last events have put them, each at another time.
 TEST(Edits, ListenersMustNotLookAtTheBalls) {
     for (const int domains : {1, 3}) {

@@ -90,8 +90,8 @@ class Observer {
     /// All that has been measured so far, for another observer of the same world and options to go on from
     /// with the same bits: words whose meaning is the library's own. Up to 32 bytes * lags * tracked.
     [[nodiscard]] std::vector<std::uint64_t> save() const;
-    /// Throws std::invalid_argument where the words were saved with other options or of other balls; the
-    /// observer is of no use then.
+    /// Throws std::invalid_argument where the words were saved with other options or for another number of
+    /// balls; the observer is of no use then.
     void restore(std::span<const std::uint64_t> words);
 
  private:

@@ -162,9 +162,9 @@ class World {
     // SceneError on values that no scene may have, and on what would overlap (unless the scene allows that);
     // std::out_of_range on ids that are not there. Not to be called from a listener.
 
-    /// All at once. Where moving balls get other positions and velocities and nothing else changes the cost
-    /// is theirs; else it is that of setting up a world of so many balls, and one call with many is far
-    /// cheaper than many with one.
+    /// All at once. Where moving balls get other velocities and nothing else changes, the cost is theirs in a
+    /// world of one domain; other positions cost a pass over all balls, anything else that of setting up a
+    /// world of so many balls: one call with many is far cheaper than many with one.
     Added apply(const Edits& edits);
     std::uint32_t add_ball(const Ball& ball);
     void remove_ball(std::uint32_t id);
