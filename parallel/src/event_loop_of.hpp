@@ -77,10 +77,10 @@ class EventLoopOf final : public EventLoop {
     void consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) const;
     void consider_in_cell(std::uint32_t i, std::uint32_t j, CellCoordinates cell, NextEvent& best) const;
     void consider_beside(std::uint32_t i, std::uint32_t j, CellCoordinates reach, NextEvent& best) const;
-    void consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best) const;
-    void scan_large(std::uint32_t i, NextEvent& best) const;
+    [[gnu::noinline]] void consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best) const;
+    [[gnu::noinline]] void scan_large(std::uint32_t i, NextEvent& best) const;
     void scan_listed(std::uint32_t i, NextEvent& best) const;
-    void scan_beside(std::uint32_t i, CellCoordinates side, NextEvent& best) const;
+    [[gnu::noinline]] void scan_beside(std::uint32_t i, CellCoordinates side, NextEvent& best) const;
     static constexpr std::size_t kMostCandidates =
         std::size_t{9} * CellLists::kBlockSize;  // that are looked at together
     struct Candidates {
@@ -97,13 +97,13 @@ class EventLoopOf final : public EventLoop {
     template <int kWidth, int kHeight>
     bool gather_beside(std::int32_t low, Candidates& found) const;
     void sight(std::uint32_t i);
-    void sight_all();
+    [[gnu::noinline]] void sight_all();
     template <class F>
     void for_each_place(std::uint32_t i, CellCoordinates first, CellCoordinates last, F&& f) const;
     void scan_obstacles(std::uint32_t i, NextEvent& best) const {
         if (bodies_.has_obstacles) scan_each_obstacle(i, best);
     }
-    void scan_each_obstacle(std::uint32_t i, NextEvent& best) const;
+    [[gnu::noinline]] void scan_each_obstacle(std::uint32_t i, NextEvent& best) const;
     [[nodiscard]] NextEvent search(std::uint32_t i) const {
         Candidates found;
         const bool has_looked = look_beside(i, {0, 0}, found);
@@ -112,26 +112,29 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] NextEvent search_among(std::uint32_t i, const Candidates& found, bool has_looked) const;
     void expect(std::uint32_t i, const NextEvent& event);
     void wake_partner(std::uint32_t i);
-    void lose(std::uint32_t i);
-    void tell_lower(std::uint32_t i);
+    [[gnu::noinline]] void lose(std::uint32_t i);
+    [[gnu::noinline]] void tell_lower(std::uint32_t i);
     void relist(std::uint32_t i, CellCoordinates cell);
     void predict_crossing(std::uint32_t i);
 
     // Events.
     void run_in_parts(double end, bool inclusive);
-    void run_until(double end, bool inclusive);
+    // Calls cost a tenth of the time here: what happens often is drawn into one function, and what is rare
+    // kept out of it ([[gnu::noinline]]), for compilers do not know which is which.
+    [[gnu::flatten]] void run_until(double end, bool inclusive);
     void start_next_epoch(std::int64_t epoch);
-    [[nodiscard]] std::uint32_t first_of_ties();
+    [[nodiscard, gnu::noinline]] std::uint32_t first_of_ties();
     [[nodiscard]] std::uint64_t most_events_at_once() const {
         return (is_patient ? 2'000'000 : 10'000) + 64 * std::uint64_t{size()};
     }
-    [[noreturn]] void refuse_wedged(std::uint32_t i) const;
+    [[noreturn, gnu::noinline]] void refuse_wedged(std::uint32_t i) const;
     void cross(std::uint32_t i);
     void collide_first(std::uint32_t i);
-    [[nodiscard]] std::uint32_t find_beside(std::uint32_t i, std::uint32_t id, bool& is_inside) const;
-    void pass_on_notes();
+    [[nodiscard, gnu::noinline]] std::uint32_t find_beside(std::uint32_t i, std::uint32_t id,
+                                                           bool& is_inside) const;
+    [[gnu::noinline]] void pass_on_notes();
     void collide_pair(std::uint32_t i, std::uint32_t j, Image image, const Time& t);
-    void collide_obstacle(std::uint32_t i, const NextEvent& event);
+    [[gnu::noinline, gnu::flatten]] void collide_obstacle(std::uint32_t i, const NextEvent& event);
     void keep_anchor(std::uint32_t i);
     Image advance(std::uint32_t i, const Time& t);
     void settle(std::uint32_t i);

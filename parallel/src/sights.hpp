@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bodies.hpp"
+#include "fault.hpp"
 #include "lanes.hpp"
 #include "region.hpp"
 
@@ -89,5 +90,52 @@ class Sights {
     std::vector<Row> rows_;
     std::vector<float> radius_;
 };
+
+inline Floats Sights::bounds(std::uint32_t i, const std::uint32_t* others, double now) const {
+    constexpr float kRound = 0x1.8p23F;  // adding and subtracting it rounds to a whole number
+    const Floats zero{};
+    const Floats never = zero + std::numeric_limits<float>::infinity();
+    const auto t = static_cast<float>((now - time_) * per_span_);
+    const Row& own = rows_[i];
+    FourFloats rows[kLanes];
+    const std::uint32_t* each = others;
+    __asm__(""
+            : "+r"(each));  // or they would be read as one vector, before what was written in parts is there
+    for (std::size_t k = 0; k < kLanes; ++k) std::memcpy(&rows[k], &rows_[each[k]], sizeof(Row));
+    const Columns other = columns_of(rows);
+    Floats sum = zero + diameter_;
+    if (!has_one_radius_) {
+        float sums[kLanes];
+        for (std::size_t k = 0; k < kLanes; ++k) sums[k] = radius_[i] + radius_[others[k]];
+        std::memcpy(&sum, sums, sizeof(sum));
+    }
+
+    const Floats vx = own.vx - other.vx;
+    const Floats vy = own.vy - other.vy;
+    Floats x = (own.x - other.x) + vx * t;
+    Floats y = (own.y - other.y) + vy * t;
+    x -= period_x_ * ((x * turns_x_ + kRound) - kRound);
+    y -= period_y_ * ((y * turns_y_ + kRound) - kRound);
+    const Floats distance_squared = x * x + y * y;
+    const Floats speed_squared = vx * vx + vy * vy;
+    const Floats sum_squared = sum * sum;
+    const Floats scale = distance_squared + sum_squared;
+    const Floats approach = -(x * vx + y * vy);
+    const Floats moment = x * vy - y * vx;
+    const Floats doubt = margin_ * (speed_squared + doubtful_speed_squared_) * scale;
+    const Floats gap = distance_squared - sum_squared - 4 * margin_ * scale;
+    const Floats discriminant = sum_squared * speed_squared - moment * moment + 13 * doubt;
+    const Floats root = sqrt_of(discriminant > 0 ? discriminant : zero);
+    const float early = is_active(Fault::kLateBound) ? 1.3F : 1 - 2 * margin_;
+    const Floats time = gap / (root + approach) * early;
+    const Floats sooner = ((gap > 0) & (approach > 0)) ? time : zero;
+    // Every comparison with NaN is false: what is not seen does not miss.
+    const FloatMasks misses =
+        (discriminant < 0) | ((approach <= 0) & (approach * approach > 16 * margin_ * doubt));
+    Indices numbers;
+    std::memcpy(&numbers, others, sizeof(numbers));
+    const FloatMasks is_self = numbers == i;
+    return (misses | is_self) ? never : sooner;
+}
 
 }  // namespace carom

@@ -162,7 +162,7 @@ class EventQueue {
     }
 
     /// Enters what comes next, from the least key on. False when nothing is to come.
-    bool start_year() {
+    [[gnu::noinline]] bool start_year() {
         ++years_;
         entries_.clear();
         due_.clear();
