@@ -85,7 +85,9 @@ bool EventLoopOf<A>::gather_beside(std::int32_t low, Candidates& found) const {
     const CellLists::Block* row = &cells_.first_block(low);
     std::uint32_t* next = found.ids.data();
     std::int32_t single = -1;  // negative as long as no cell has a further block
+#pragma GCC unroll 3
     for (int y = 0; y < kHeight; ++y, row += region_.x.size()) {
+#pragma GCC unroll 3
         for (int x = 0; x < kWidth; ++x) {
             const CellLists::Block& block = row[x];
             std::memcpy(next, block.ids.data(), sizeof(block.ids));

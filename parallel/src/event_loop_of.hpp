@@ -78,7 +78,10 @@ class EventLoopOf final : public EventLoop {
     void consider_in_cell(std::uint32_t i, std::uint32_t j, CellCoordinates cell, NextEvent& best) const;
     void consider_beside(std::uint32_t i, std::uint32_t j, CellCoordinates reach, NextEvent& best) const;
     [[gnu::noinline]] void consider_images(std::uint32_t i, std::uint32_t j, NextEvent& best) const;
-    [[gnu::noinline]] void scan_large(std::uint32_t i, NextEvent& best) const;
+    void scan_large(std::uint32_t i, NextEvent& best) const {
+        if (!large_.empty()) scan_each_large(i, best);
+    }
+    [[gnu::noinline]] void scan_each_large(std::uint32_t i, NextEvent& best) const;
     void scan_listed(std::uint32_t i, NextEvent& best) const;
     [[gnu::noinline]] void scan_beside(std::uint32_t i, CellCoordinates side, NextEvent& best) const;
     static constexpr std::size_t kMostCandidates =

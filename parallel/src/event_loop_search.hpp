@@ -197,7 +197,7 @@ void EventLoopOf<A>::consider_images(std::uint32_t i, std::uint32_t j, NextEvent
 
 /// The large balls, which are in no cell's list.
 template <Acceleration A>
-void EventLoopOf<A>::scan_large(std::uint32_t i, NextEvent& best) const {
+void EventLoopOf<A>::scan_each_large(std::uint32_t i, NextEvent& best) const {
     if (is_active(Fault::kUnseenLarge)) return;
     for (const std::uint32_t j : large_) consider_images(i, j, best);
 }

@@ -183,6 +183,10 @@ INSTANTIATE_TEST_SUITE_P(
               [](Scene& s) { s.sensors = {{{{0, 0}, {4, 0}, {1, 1}, {0, 4}}}}; }},
         Fault{"sensors[0].corners: must go once around a convex polygon, no three of them on one line",
               [](Scene& s) { s.sensors = {{{{0, 3}, {-2, -3}, {3, 1}, {-3, 1}, {2, -3}}}}; }},
+        Fault{"sensors[0].corners: must go once around a convex polygon, no three of them on one line",
+              [](Scene& s) { s.sensors = {{{{5, 5}, {6, 5}, {7, 5}, {7, 7}, {5, 7}}}}; }},
+        Fault{"sensors[0].corners: must be at least 1e-100 apart",
+              [](Scene& s) { s.sensors = {{{{0, 0}, {0.9e-100, 0}}}}; }},
         Fault{"sensors: must be none where method is empirical, which does not know them",
               [](Scene& s) {
                   s.sensors = {{{{0, 0}}}};
@@ -310,6 +314,29 @@ TEST(CheckScene, AcceptsAWallFromPeriodicSideToSide) {
     EXPECT_NO_THROW(check(scene));
     scene.walls[0].from.x() = 0.999;
     EXPECT_THROW(check(scene), SceneError);
+}
+
+// Convex corners either way around, as many as there may be, and what is least: a point, a short segment.
+TEST(CheckScene, AcceptsSensorsOfAnyConvexShape) {
+    std::vector<Vec2> many;
+    for (int k = 0; k < 64; ++k)
+        many.emplace_back(5 + std::cos(2 * std::numbers::pi * k / 64),
+                          5 + std::sin(2 * std::numbers::pi * k / 64));
+    Scene scene = sound_scene();
+    for (const std::vector<Vec2>& corners :
+         {std::vector<Vec2>{{3, 4}}, std::vector<Vec2>{{3, 4}, {3, 4.5}},
+          std::vector<Vec2>{{0, 0}, {1e-100, 0}}, std::vector<Vec2>{{3, 4}, {5, 4}, {4, 7}},
+          std::vector<Vec2>{{3, 4}, {4, 7}, {5, 4}}, std::vector<Vec2>{{3, 4}, {5, 4}, {5, 4.5}, {3, 4.5}},
+          many}) {
+        scene.sensors = {{corners, 0.5}};
+        EXPECT_NO_THROW(check(scene)) << corners.size() << " corners";
+    }
+}
+
+TEST(CheckScene, AcceptsTheEmpiricalMethodWithoutSensors) {
+    Scene scene = sound_scene();
+    scene.method = Method::kEmpirical;
+    EXPECT_NO_THROW(check(scene));
 }
 
 // Float ends near 3.4e38: what is within 1e30 and what is not, in float and in double.

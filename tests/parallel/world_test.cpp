@@ -31,6 +31,19 @@ TEST(World, StepAddsToTheTime) {
     EXPECT_EQ(world.time(), 0.75);
 }
 
+TEST(World, TellsItsCellsAndTheTimeItsThreadsWorked) {
+    const Scene scene = gas(45, {.count = 400, .packing = 0.5});
+    World one(scene, {.domains = 1});
+    World four(scene, {.threads = 2, .cell_size = 2, .domains = 4});
+    EXPECT_GE(one.cell_size(), 1);
+    EXPECT_LT(one.cell_size(), 2);
+    EXPECT_GE(four.cell_size(), 2);
+    one.step(0.1);
+    four.step(0.1);
+    EXPECT_EQ(one.working_seconds(), 0);
+    EXPECT_GT(four.working_seconds(), 0);
+}
+
 TEST(World, RefusesThePast) {
     World world(gas(44, {}));
     world.advance_to(1);

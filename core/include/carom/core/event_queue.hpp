@@ -104,6 +104,7 @@ class EventQueue {
     static constexpr std::int32_t kNone = -1;
     static constexpr std::size_t kMostStale = 4;  // entries an id, before the year is begun anew
 
+    [[nodiscard]] std::size_t most_entries() const { return kMostStale * slots_.size() + 64; }
     [[nodiscard]] bool is_stale(std::uint32_t id, std::uint32_t turn) const {
         return slots_[id].turn != turn;
     }
@@ -114,12 +115,14 @@ class EventQueue {
         if (!(day >= next_day_)) {
             due_.push_back({slot.key, id, slot.turn});
             std::push_heap(due_.begin(), due_.end());
+            is_overfull_ |= due_.size() > most_entries();
             ++events_;
             return;
         }
         std::int32_t& head = days_[static_cast<std::size_t>(day)];
         if (free_ == kNone) {
             entries_.push_back({id, slot.turn, head});
+            is_overfull_ |= entries_.size() > most_entries();
             head = static_cast<std::int32_t>(entries_.size() - 1);
         } else {
             const std::int32_t spare = free_;
@@ -132,7 +135,7 @@ class EventQueue {
 
     /// Brings the least entry to the front of the day at hand.
     void find_first() {
-        if (std::max(entries_.size(), due_.size()) > kMostStale * slots_.size() + 64) start_year();
+        if (is_overfull_) start_year();
         for (;;) {
             while (!due_.empty() && is_stale(due_.front().id, due_.front().turn)) {
                 std::pop_heap(due_.begin(), due_.end());
@@ -166,6 +169,7 @@ class EventQueue {
         ++years_;
         entries_.clear();
         due_.clear();
+        is_overfull_ = false;
         free_ = kNone;
         days_.assign(std::max<std::size_t>(slots_.size() / 2, 1), kNone);
         double least = std::numeric_limits<double>::infinity();
@@ -224,9 +228,10 @@ class EventQueue {
     std::vector<std::int32_t> days_;  // the first entry of each
     std::vector<Entry> entries_;
     std::int32_t free_ = kNone;
-    std::vector<Due> due_;  // a heap: the day at hand
-    std::size_t day_ = 0;   // the first that has not come
-    double next_day_ = 0;   // the same
+    std::vector<Due> due_;      // a heap: the day at hand
+    bool is_overfull_ = false;  // of what is stale
+    std::size_t day_ = 0;       // the first that has not come
+    double next_day_ = 0;       // the same
     double last_day_ = 0;
     std::size_t events_ = 0;  // entered in days of this year that have come
     double year_start_ = 0;
