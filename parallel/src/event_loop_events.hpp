@@ -4,6 +4,7 @@
 #include <bit>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include <carom/core/response.hpp>
@@ -73,11 +74,17 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
     }
 }
 
-/// Several events share this instant: lets the smaller id of each pair know of its event, so that the
-/// smallest id with an event now holds the first one.
+/// Several events share this instant: lets the smaller id of each pair know of its event, so that who holds
+/// the event of the smallest ids holds the first one. A static ball holds none, and may have the smallest.
 template <Acceleration A>
 std::uint32_t EventLoopOf<A>::first_of_ties() {
-    const auto rank = [this](std::uint32_t b) { return records_[b].id; };
+    const auto rank = [this](std::uint32_t b) {
+        const std::uint32_t id = records_[b].id;
+        const bool crosses = locals_[b].asleep ||
+                             records_[b].crossing_time <= clock_.since_epoch(records_[b].next.time, epoch_);
+        const std::uint32_t partner = crosses ? id : records_[b].next.partner;
+        return std::tuple(std::min(id, partner), std::max(id, partner), id);
+    };
     if (!simultaneous_) {
         tied_.clear();
         queue_.for_each_first([&](std::uint32_t i) { tied_.push_back(i); });

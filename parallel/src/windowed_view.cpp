@@ -59,10 +59,11 @@ void WindowedEngine::order_simultaneous(std::span<Told> notes) const {
         lets_go[uses[u - 1].note].push_back(uses[u].note);
         ++waits_for[uses[u].note];
     }
-    const auto comes_later = [&notes](std::size_t a, std::size_t b) {
-        return std::tuple(notes[a].note->lower, notes[a].note->higher) >
-               std::tuple(notes[b].note->lower, notes[b].note->higher);
+    const auto ids = [&notes](std::size_t k) {  // a static ball is the note's second, whatever its id
+        const CollisionNote& n = *notes[k].note;
+        return std::pair(std::min(n.lower, n.higher), std::max(n.lower, n.higher));
     };
+    const auto comes_later = [&ids](std::size_t a, std::size_t b) { return ids(a) > ids(b); };
     std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(comes_later)> ready(comes_later);
     for (std::size_t k = 0; k < notes.size(); ++k)
         if (waits_for[k] == 0) ready.push(k);

@@ -51,5 +51,18 @@ TEST(LargeBallsAudit, AgreeThoughBarelyWiderThanACell) {
     }
 }
 
+// Where events share an instant the smallest ids come first, be it a static ball's.
+TEST(TiesAudit, KnowAStaticBallsIdAsAnyOther) {
+    Scene s;
+    s.gravity = {0.9836396545046979, -0.1801472455683922};
+    s.balls.resize(4);
+    s.balls[0].position = {3.92000291513364, 1.9738017866579318};
+    s.balls[0].radius = 0.7581101384317376;
+    s.balls[0].is_static = true;
+    for (int k = 1; k < 4; ++k) s.balls[k].position = {k - 0.5, 1.5};
+    s.until = 0.76;
+    audit(s, 0, 100);
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -111,6 +111,13 @@ std::vector<NamedScene> simultaneous_scenes() {
         touching.balls.push_back(at(1 + k % 24, 1 + k / 24, moves * vx, moves * vy));
     }
     all.push_back({"lattice of touching balls", touching});
+    // A static ball's id is as good as a moving one's where ids decide.
+    Scene posts = lattice;
+    for (std::size_t k = 0; k < posts.balls.size(); k += 5) {
+        posts.balls[k].is_static = true;
+        posts.balls[k].velocity = Vec2::Zero();
+    }
+    all.push_back({"lattice among static balls", posts});
     return all;
 }
 
