@@ -1,8 +1,10 @@
 // What a ball carries from window to window and from domain to domain: plain data.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include <carom/broadphase/grid.hpp>
 #include <carom/core/clock.hpp>
@@ -21,6 +23,11 @@ struct alignas(64) Anchor {
 static_assert(sizeof(Anchor) == 64);
 
 inline constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
+
+/// The numbers of an event's two bodies as events of one instant are ordered by them: the smaller first.
+[[nodiscard]] inline std::pair<std::uint32_t, std::uint32_t> in_order(std::uint32_t a, std::uint32_t b) {
+    return {std::min(a, b), std::max(a, b)};
+}
 
 /// The time of a next event that has not been looked for.
 inline constexpr Time kUnknown{-1, 0};

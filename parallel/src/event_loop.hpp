@@ -185,6 +185,11 @@ class EventLoop {
         return key <= locals_[i].end ? key : std::numeric_limits<double>::infinity();
     }
     void schedule(std::uint32_t i) { queue_.set(i, key_of(i)); }
+    /// Whether that entry is for leaving its cell, and not for its next event.
+    [[nodiscard]] bool crosses_first(std::uint32_t i) const {
+        return locals_[i].asleep ||
+               records_[i].crossing_time <= clock_.since_epoch(records_[i].next.time, epoch_);
+    }
 
     const Bodies& bodies_;
     const Clock clock_;

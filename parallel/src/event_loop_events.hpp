@@ -66,8 +66,7 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
         }
         if (may_be_tied) i = first_of_ties();
         events += locals_[i].owned;
-        if (locals_[i].asleep ||
-            records_[i].crossing_time <= clock_.since_epoch(records_[i].next.time, epoch_))
+        if (crosses_first(i))
             cross(i);
         else
             collide_first(i);
@@ -80,10 +79,7 @@ template <Acceleration A>
 std::uint32_t EventLoopOf<A>::first_of_ties() {
     const auto rank = [this](std::uint32_t b) {
         const std::uint32_t id = records_[b].id;
-        const bool crosses = locals_[b].asleep ||
-                             records_[b].crossing_time <= clock_.since_epoch(records_[b].next.time, epoch_);
-        const std::uint32_t partner = crosses ? id : records_[b].next.partner;
-        return std::tuple(std::min(id, partner), std::max(id, partner), id);
+        return std::tuple(in_order(id, crosses_first(b) ? id : records_[b].next.partner), id);
     };
     if (!simultaneous_) {
         tied_.clear();

@@ -123,8 +123,7 @@ bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint3
     if (a.time == kNever) return false;
     const auto key = [id = records_[i].id](const NextEvent& e) {
         const int sign = e.partner < id ? -1 : 1;  // the image as seen from the smaller id
-        return std::tuple(std::min(id, e.partner), std::max(id, e.partner), sign * e.image_x,
-                          sign * e.image_y);
+        return std::tuple(in_order(id, e.partner), sign * e.image_x, sign * e.image_y);
     };
     return key(a) < key(b);
 }

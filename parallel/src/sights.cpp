@@ -1,4 +1,4 @@
-// The bounds on when balls meet, and their margins.
+// The margins of the bounds on when balls meet.
 //
 // With u = 2^-24, P the farthest place and flight in a span that are seen, all in cells: two places and
 // their difference are rounded by 4 u P together, two velocities and their difference by as much, the flight

@@ -60,8 +60,7 @@ void WindowedEngine::order_simultaneous(std::span<Told> notes) const {
         ++waits_for[uses[u].note];
     }
     const auto ids = [&notes](std::size_t k) {  // a static ball is the note's second, whatever its id
-        const CollisionNote& n = *notes[k].note;
-        return std::pair(std::min(n.lower, n.higher), std::max(n.lower, n.higher));
+        return in_order(notes[k].note->lower, notes[k].note->higher);
     };
     const auto comes_later = [&ids](std::size_t a, std::size_t b) { return ids(a) > ids(b); };
     std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(comes_later)> ready(comes_later);
