@@ -75,6 +75,7 @@ struct DomainState {
     std::vector<OwnVisit> visits;
     std::vector<std::uint8_t> touched;
     bool failed = false;
+    bool is_full = false;  ///< failed for there was no room for all its collisions
 
     /// Forgets what the last window came to.
     void clear_outcome() {

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace carom {
 namespace {
 
 // A domain of about so many balls, with its halo, fits a core's second-level cache.
 constexpr double kBallsOfDomain = 12000;
+// A follower is told after so many collisions a ball at the latest.
+constexpr std::uint64_t kCollisionsOfBall = 8;
 // With fewer balls a thread the halo costs more than another thread gives.
 constexpr double kFewestOfThread = 2000;
 
@@ -91,7 +94,7 @@ class SerialEngine final : public Engine {
         loop_->keeps_anchors = static_cast<bool>(follower_);
         loop_->on_part = nullptr;
         if (follower_) loop_->on_part = [this](const Time& t) { tell_follower({t, false}); };
-        loop_->forget_anchors();
+        forget_anchors();
     }
     void listen(std::function<void(const Collision&)> listener) override {
         listener_ = std::move(listener);
@@ -101,7 +104,12 @@ class SerialEngine final : public Engine {
  private:
     void tell_follower(const Stop& stop) {
         follower_(stop);
+        forget_anchors();
+    }
+    void forget_anchors() {
         loop_->forget_anchors();
+        loop_->room =
+            follower_ ? loop_->room_for(kCollisionsOfBall) : std::numeric_limits<std::uint64_t>::max();
     }
 
     const Executor& executor_;

@@ -30,6 +30,7 @@ struct Flight {
 struct Stop {
     Time time;
     bool is_whole = true;
+    [[nodiscard]] bool covers(const Time& t) const { return t < time || (t == time && is_whole); }
 };
 
 class Engine {
@@ -83,7 +84,6 @@ class Engine {
     OrderedSum virial_;
 };
 
-/// `bodies` and `executor` must outlive the engine. `domains` 0 lets the engine choose.
 /// Puts a ball's flights together, from its anchor and those that it has overwritten.
 class FlightList {
  public:
@@ -100,6 +100,7 @@ class FlightList {
     std::vector<Flight> flights_;
 };
 
+/// `bodies` and `executor` must outlive the engine. `domains` 0 lets the engine choose.
 [[nodiscard]] std::unique_ptr<Engine> make_engine(const Bodies& bodies, const EngineStart& start,
                                                   const Executor& executor, const WorldOptions& options);
 

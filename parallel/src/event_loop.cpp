@@ -23,7 +23,7 @@ void EventLoop::clear(const Region& region, const Time& now) {
         std::fill_n(is_inside_.begin() + y * row + 1, std::max<std::ptrdiff_t>(row - 2, 0), std::uint8_t{1});
     epoch_ = now.epoch;
     now_ = now.offset;
-    simultaneous_ = failed_ = false;
+    simultaneous_ = failed_ = full_ = false;
     events_at_once_ = 0;
     events = collisions_of_all = 0;
     const auto empty = [](auto&... tables) { (tables.clear(), ...); };

@@ -109,8 +109,8 @@ class EventLoop {
     virtual void predict_all(const Executor* executor) = 0;
 
     // ---- Running.
-    /// Resolves all events before `end`, and at it where `inclusive`. Throws std::runtime_error when a ball
-    /// is wedged.
+    /// Resolves all events before `end`, and at it where `inclusive`; fewer where the loop is full. Throws
+    /// std::runtime_error when a ball is wedged.
     virtual void advance_to(const Time& end, bool inclusive) = 0;
     /// Anchors every ball at `t`, no event being left before it, with a new acceleration: gravity, its own
     /// and the field's. Call predict_all() next.
@@ -139,6 +139,9 @@ class EventLoop {
     }
     /// Whether a ball of its own went where the loop cannot follow.
     [[nodiscard]] bool has_failed() const { return failed_; }
+    /// Whether `room` was used up: then all events up to and including time_now() are resolved, no later one.
+    [[nodiscard]] bool is_full() const { return full_; }
+    [[nodiscard]] Time time_now() const { return clock_.after({epoch_, 0}, now_); }
     /// The first broken rule of this file's head comment found for each ball.
     virtual void audit(std::vector<Violation>& found) const = 0;
 
@@ -149,6 +152,13 @@ class EventLoop {
     bool is_patient = true;
     bool keeps_window = false;   ///< whether visits and histories are kept
     bool keeps_anchors = false;  ///< whether overwritten anchors are
+    /// What is kept of collisions must fit the memory: when there have been so many of them, copies'
+    /// included, the loop stops before time goes on, or tells `on_part`, which makes room.
+    std::uint64_t room = std::numeric_limits<std::uint64_t>::max();
+    /// Room for so many collisions a ball, and for what few balls may have.
+    [[nodiscard]] std::uint64_t room_for(std::uint64_t collisions_of_ball) const {
+        return collisions_of_all + 10'000 + collisions_of_ball * size();
+    }
     /// Told the end of each part of an epoch where anchors are kept without the rest of a window, and may
     /// call forget_anchors() then.
     std::function<void(const Time&)> on_part;
@@ -222,6 +232,7 @@ class EventLoop {
     double now_ = 0;             // since the start of the epoch
     bool simultaneous_ = false;  // several events share the present instant
     bool failed_ = false;
+    bool full_ = false;
     std::uint64_t events_at_once_ = 0;
 };
 

@@ -19,13 +19,14 @@ template <Acceleration A>
 void EventLoopOf<A>::advance_to(const Time& end, bool inclusive) {
     while (epoch_ < end.epoch) {
         run_in_parts(clock_.epoch_length(), false);
+        if (full_) return;
         const double epochs = std::floor(queue_.first_key() / clock_.epoch_length());
         start_next_epoch(epochs < double(end.epoch - epoch_)
                              ? epoch_ + std::max(std::int64_t{1}, static_cast<std::int64_t>(epochs))
                              : end.epoch);
     }
     run_in_parts(end.offset, inclusive);
-    now_ = std::max(now_, end.offset);
+    if (!full_) now_ = std::max(now_, end.offset);
     pass_on_notes();
 }
 
@@ -53,6 +54,8 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
         const double key = queue_.key(i);
         if (!(key < end || (inclusive && key == end))) return;
         if (key > now_) {
+            if (collisions_of_all >= room) make_room(key);
+            if (full_) return;
             now_ = key;
             if (filters_ && sights_.are_worn(now_)) sight_all();
             events_at_once_ = 0;
@@ -71,6 +74,15 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
         else
             collide_first(i);
     }
+}
+
+/// Stops the loop, or tells the follower what has happened before `end`.
+template <Acceleration A>
+void EventLoopOf<A>::make_room(double end) {
+    full_ = !on_part;
+    if (full_) return;
+    pass_on_notes();
+    on_part({epoch_, end});
 }
 
 /// Several events share this instant: lets the smaller id of each pair know of its event, so that who holds

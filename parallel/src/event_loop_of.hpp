@@ -131,6 +131,7 @@ class EventLoopOf final : public EventLoop {
         return (is_patient ? 2'000'000 : 10'000) + 64 * std::uint64_t{size()};
     }
     [[noreturn, gnu::noinline]] void refuse_wedged(std::uint32_t i) const;
+    [[gnu::noinline]] void make_room(double end);
     void cross(std::uint32_t i);
     void collide_first(std::uint32_t i);
     [[nodiscard, gnu::noinline]] std::uint32_t find_beside(std::uint32_t i, std::uint32_t id,
@@ -142,7 +143,6 @@ class EventLoopOf final : public EventLoop {
     Image advance(std::uint32_t i, const Time& t);
     void settle(std::uint32_t i);
     [[nodiscard]] Vec2 centres_offset(std::uint32_t i, std::uint32_t j, Image image) const;
-    [[nodiscard]] Time time_now() const { return clock_.after({epoch_, 0}, now_); }
     [[nodiscard]] double restitution_at(double restitution, std::uint32_t i, std::uint32_t j,
                                         const Time& t) const;
     void note(const Time& t, std::uint32_t i, std::uint32_t partner, std::uint32_t partner_stamp,

@@ -10,6 +10,8 @@ namespace {
 
 // So many cells of a halo are simulated to the window's end; the domain's own balls come there.
 constexpr std::int32_t kKept = 4;
+// A window aims at a few collisions a ball; more than so many, and it was too long by far.
+constexpr std::uint64_t kMostCollisionsOfBall = 32;
 
 }  // namespace
 
@@ -98,21 +100,24 @@ void WindowedEngine::load(Workshop& w, std::size_t self, const Region& region, s
     unpack(w.message, halo, window_end, ends_early, w);
 }
 
-void WindowedEngine::run(DomainState& d, const Time& window_end, bool inclusive) {
+void WindowedEngine::run(DomainState& d, const Stop& window_end) {
     const Lease lease(*this);
     Workshop& w = *lease;
     w.loop->keeps_window = w.loop->keeps_anchors = true;
     w.loop->is_patient = false;  // all balls together will tell
     d.region = {bodies_.grid, d.x, d.y, d.halo};
-    load(w, static_cast<std::size_t>(&d - domains_.data()), d.region, d.halo, window_end, true);
+    load(w, static_cast<std::size_t>(&d - domains_.data()), d.region, d.halo, window_end.time, true);
+    w.loop->room = w.loop->room_for(kMostCollisionsOfBall);
     w.loop->start();
     try {
-        w.loop->advance_to(window_end, inclusive);
-        d.failed = w.loop->has_failed();
+        w.loop->advance_to(window_end.time, window_end.is_whole);
+        d.is_full = w.loop->is_full();
+        d.failed = w.loop->has_failed() || d.is_full;
     } catch (const std::runtime_error&) {
+        d.is_full = false;
         d.failed = true;  // perhaps only because a copy went astray: all balls together will tell
     }
-    keep_outcome(d, w, window_end);
+    keep_outcome(d, w, window_end.time);
 }
 
 void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& window_end) {

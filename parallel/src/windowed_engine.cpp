@@ -21,6 +21,8 @@ constexpr double kShrinkage = 0.8;  // where all had to run again; the power of 
 constexpr double kLeastTarget = 0.05;
 constexpr double kMostTarget = 4;
 constexpr int kMostShortenings = 5;
+// All balls in one loop end a window after so many collisions a ball.
+constexpr std::uint64_t kMostCollisionsTogether = 8;
 // A domain may have so many times the mean of balls before the plane is cut anew.
 constexpr double kUneven = 1.5;
 constexpr int kWindowsBetweenSplits = 16;
@@ -42,14 +44,14 @@ WindowedEngine::WindowedEngine(const Bodies& bodies, const EngineStart& start, c
 }
 
 /// Runs every domain to `window_end` and repairs those that disagree with their neighbours: again, with a
-/// wider halo. Gives up after a few rounds.
-bool WindowedEngine::try_window(const Time& window_end, bool inclusive) {
+/// wider halo. Gives up after a few rounds, and at once where too much happens for a window.
+bool WindowedEngine::try_window(const Stop& window_end) {
     std::vector<std::uint8_t> runs(domains_.size(), 1);
     for (DomainState& d : domains_) d.halo = halo_;
     disagreeing_ = 0;
     for (int round = 0;; ++round) {
         for_each_domain([&](std::size_t d) {
-            if (runs[d]) run(domains_[d], window_end, inclusive);
+            if (runs[d]) run(domains_[d], window_end);
         });
         for_each_domain([&](std::size_t d) { runs[d] = agrees(domains_[d]) ? 0 : 1; });
         const auto disagreeing = static_cast<std::uint64_t>(std::ranges::count(runs, 1));
@@ -57,20 +59,23 @@ bool WindowedEngine::try_window(const Time& window_end, bool inclusive) {
         counts_.window_retries += disagreeing;
         disagreeing_ += disagreeing;
         if (round == kMostRepairs || 4 * disagreeing > 3 * domains_.size() + 4) return false;
+        if (std::ranges::any_of(domains_, &DomainState::is_full)) return false;
         for (std::size_t d = 0; d < domains_.size(); ++d)
             if (runs[d]) domains_[d].halo = widened(domains_[d].halo);
     }
 }
 
-/// All balls in one loop: what remains when the domains cannot agree.
-void WindowedEngine::run_together(const Time& window_end, bool inclusive) {
+/// All balls in one loop: what remains when the domains cannot agree. Gives how far they went.
+Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
     const Lease lease(*this);
     Workshop& w = *lease;
     w.loop->keeps_window = w.loop->keeps_anchors = w.loop->is_patient = true;
-    load(w, kAll, {bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0}, 0, window_end, false);
-    w.loop->start();
-    w.loop->advance_to(window_end, inclusive);
+    load(w, kAll, {bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0}, 0, window_end.time, false);
     EventLoop& loop = *w.loop;
+    loop.room =
+        may_end_early ? loop.room_for(kMostCollisionsTogether) : std::numeric_limits<std::uint64_t>::max();
+    loop.start();
+    loop.advance_to(window_end.time, window_end.is_whole);
     for (DomainState& d : domains_) d.clear_outcome();
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
         DomainState& d = domains_[w.origins[i].domain];
@@ -93,6 +98,7 @@ void WindowedEngine::run_together(const Time& window_end, bool inclusive) {
     std::swap(domains_.front().notes, loop.notes);
     std::swap(domains_.front().collisions, loop.collisions);
     domains_.front().events = loop.events;
+    return loop.is_full() ? Stop{loop.time_now()} : window_end;
 }
 
 /// Finds every ball's next event from nothing, after a renewal of the field where asked.
@@ -114,7 +120,7 @@ void WindowedEngine::predict_anew(bool renews_field) {
         index_results(d);
     });
     in_window_ = true;
-    window_end_ = window_start_;
+    window_end_ = {window_start_};
     commit();
 }
 
@@ -129,8 +135,8 @@ void WindowedEngine::commit() {
         counts_.copied_collisions += d.copied_collisions;
         most = std::max(most, d.records.size());
     }
-    window_start_ = window_end_;
-    in_window_ = window_is_closed_ = false;
+    window_start_ = window_end_.time;
+    in_window_ = false;
     if (++since_split_ >= kWindowsBetweenSplits &&
         double(most) * double(domains_.size()) > kUneven * double(bodies_.moving))
         split_anew();
@@ -158,21 +164,18 @@ void WindowedEngine::next_window(const Time& wanted, const Time& horizon) {
     const double least = clock.epoch_length() * kLeastWindow;
     for (int shortenings = 0;; ++shortenings) {
         const bool gives_up = shortenings > kMostShortenings || (shortenings > 0 && window_length_ <= least);
-        Time end = clock.after(window_start_, window_length_);
-        if (end.epoch > window_start_.epoch) end = {window_start_.epoch + 1, 0};
+        Stop end{clock.after(window_start_, window_length_), false};
+        if (end.time.epoch > window_start_.epoch) end.time = {window_start_.epoch + 1, 0};
         const Time& last = cuts_windows_ ? std::min(wanted, horizon) : horizon;
-        window_is_closed_ = end >= last;
-        if (window_is_closed_) end = last;
-        const double length = clock.difference(end, window_start_);
-        const bool agreed = !gives_up && try_window(end, window_is_closed_);
+        if (end.time >= last) end = {last};
+        const double length = clock.difference(end.time, window_start_);
+        const bool agreed = !gives_up && try_window(end);
         try {
-            if (gives_up) run_together(end, window_is_closed_);
+            if (gives_up) end = run_together(end, true);
         } catch (const std::runtime_error&) {
-            if (end <= wanted) throw;
+            if (end.time <= wanted) throw;
             // What cannot go on lies ahead of the time that is asked for, and is no fault yet.
-            end = wanted;
-            window_is_closed_ = true;
-            run_together(end, window_is_closed_);
+            end = run_together({wanted}, true);
         }
         counts_.windows += domains_.size();
         tune(length, agreed);

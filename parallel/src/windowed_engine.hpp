@@ -92,11 +92,11 @@ class WindowedEngine final : public Engine {
               bool ends_early) const;
     static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
     static constexpr std::int32_t kEverything = std::numeric_limits<std::int32_t>::max();  // as a halo
-    void run(DomainState& d, const Time& window_end, bool inclusive);
+    void run(DomainState& d, const Stop& window_end);
     void keep_outcome(DomainState& d, Workshop& w, const Time& window_end);
     [[nodiscard]] bool agrees(const DomainState& d) const;
-    [[nodiscard]] bool try_window(const Time& window_end, bool inclusive);
-    void run_together(const Time& window_end, bool inclusive);
+    [[nodiscard]] bool try_window(const Stop& window_end);
+    Stop run_together(const Stop& window_end, bool may_end_early);
     void predict_anew(bool renews_field);
     void next_window(const Time& wanted, const Time& horizon);
     void skip_quiet_epochs(const Time& until);
@@ -136,9 +136,8 @@ class WindowedEngine final : public Engine {
     Follower follower_;
     Time now_;  // advanced to, as the world sees it
     Time window_start_;
-    Time window_end_;                // >= now_
-    bool in_window_ = false;         // whether results are there
-    bool window_is_closed_ = false;  // whether events at window_end_ are resolved
+    Stop window_end_;         // >= now_
+    bool in_window_ = false;  // whether results are there
     // After an edit others are to be expected where the world stops next: there windows end.
     int cuts_left_ = 0;  // stops for which that holds
     bool cuts_windows_ = false;

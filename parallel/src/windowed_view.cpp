@@ -10,8 +10,8 @@ namespace carom {
 void WindowedEngine::advance_to(const Time& end, const Time& horizon) {
     cuts_windows_ = cuts_left_ > 0;
     if (cuts_windows_) --cuts_left_;
-    while (!in_window_ || window_end_ < end || (window_end_ == end && !window_is_closed_)) {
-        if (in_window_) tell_until({window_end_, window_is_closed_});
+    while (!in_window_ || !window_end_.covers(end)) {
+        if (in_window_) tell_until(window_end_);
         next_window(end, horizon);
     }
     tell_until({end});
@@ -191,7 +191,7 @@ std::uint32_t WindowedEngine::most_events() const {
 void WindowedEngine::audit(std::vector<Violation>& found) const {
     const std::unique_ptr<EventLoop> loop = make_event_loop(bodies_);
     loop->clear({bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0},
-                in_window_ ? window_end_ : window_start_);
+                in_window_ ? window_end_.time : window_start_);
     for (const DomainState& d : domains_) {
         const auto& [records, extras] = held(d);
         for (std::size_t i = 0; i < records.size(); ++i)
@@ -203,15 +203,14 @@ void WindowedEngine::audit(std::vector<Violation>& found) const {
 
 /// Back to the time that the world sees: what lies ahead of it is forgotten.
 void WindowedEngine::rewind_to_now() {
-    if (!in_window_ || (window_end_ == now_ && window_is_closed_)) return;
+    if (!in_window_ || (window_end_.time == now_ && window_end_.is_whole)) return;
     // The window again, up to now only; its events are counted and told already.
-    run_together(now_, true);
+    run_together({now_}, false);
     for (DomainState& d : domains_) {
         d.notes.clear();
         d.collisions.clear();
     }
-    window_end_ = now_;
-    window_is_closed_ = true;
+    window_end_ = {now_};
 }
 
 void WindowedEngine::listen(std::function<void(const Collision&)> listener) {
