@@ -159,12 +159,13 @@ void Examination::edit_plain(Watched& plain, std::size_t stop, Replay& replay) {
         edits_[stop].push_back({edits, edited.answer});
         if (!edited.fault.empty())
             throw Failure{"edits", fmt::format("edit {} at time {}: {}", number, world.time(), edited.fault)};
-        is_edited = is_edited || !edited.is_refused;
+        if (edited.is_refused) continue;
+        is_edited = true;
+        replay.start_anew(scene_now(scene_, world), world);  // each edit may bring what lasts: a rest time
     }
     if (!is_edited) return;
     const Scene now = scene_now(scene_, world);
     has_field_ = has_field_ || !now.attractors.empty();
-    replay.start_anew(now, world);
     legs_.push_back(leg_from(now, world, true));
 }
 
