@@ -24,7 +24,7 @@ void EventLoop::clear(const Region& region, const Time& now) {
     epoch_ = now.epoch;
     now_ = now.offset;
     simultaneous_ = failed_ = full_ = false;
-    events_at_once_ = 0;
+    turns_ = events_at_once_ = 0;
     events = collisions_of_all = 0;
     const auto empty = [](auto&... tables) { (tables.clear(), ...); };
     empty(records_, locals_, radius_, acceleration_, last_collision_, large_, notes, collisions, overwritten,

@@ -152,12 +152,12 @@ class EventLoop {
     bool is_patient = true;
     bool keeps_window = false;   ///< whether visits and histories are kept
     bool keeps_anchors = false;  ///< whether overwritten anchors are
-    /// What is kept of collisions must fit the memory: when there have been so many of them, copies'
-    /// included, the loop stops before time goes on, or tells `on_part`, which makes room.
+    /// What is kept of events must fit the memory: when the load is as high as that, the loop stops before
+    /// time goes on, or tells `on_part`, which makes room.
     std::uint64_t room = std::numeric_limits<std::uint64_t>::max();
-    /// Room for so many collisions a ball, and for what few balls may have.
+    /// Room for so many collisions a ball from now on, and for what few balls may have.
     [[nodiscard]] std::uint64_t room_for(std::uint64_t collisions_of_ball) const {
-        return collisions_of_all + 10'000 + collisions_of_ball * size();
+        return load() + kLoadOfCollision * (10'000 + collisions_of_ball * size());
     }
     /// Told the end of each part of an epoch where anchors are kept without the rest of a window, and may
     /// call forget_anchors() then.
@@ -177,6 +177,10 @@ class EventLoop {
     [[nodiscard]] bool is_owned(std::uint32_t i) const { return locals_[i].owned != 0; }
 
  protected:
+    // What is kept of a collision takes some times as much as what is of a ball that comes to another cell.
+    static constexpr std::uint64_t kLoadOfCollision = 16;
+    /// Of all events so far, copies' included.
+    [[nodiscard]] std::uint64_t load() const { return kLoadOfCollision * collisions_of_all + turns_; }
     void begin();
     void touch(const CellCoordinates& cell);
     [[nodiscard]] double radius_of(std::uint32_t i) const {
@@ -233,6 +237,7 @@ class EventLoop {
     bool simultaneous_ = false;  // several events share the present instant
     bool failed_ = false;
     bool full_ = false;
+    std::uint64_t turns_ = 0;  // events of all balls
     std::uint64_t events_at_once_ = 0;
 };
 

@@ -54,7 +54,7 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
         const double key = queue_.key(i);
         if (!(key < end || (inclusive && key == end))) return;
         if (key > now_) {
-            if (collisions_of_all >= room) make_room(key);
+            if (load() >= room) make_room(key);
             if (full_) return;
             now_ = key;
             if (filters_ && sights_.are_worn(now_)) sight_all();
@@ -68,6 +68,7 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
             refuse_wedged(i);
         }
         if (may_be_tied) i = first_of_ties();
+        ++turns_;
         events += locals_[i].owned;
         if (crosses_first(i))
             cross(i);

@@ -69,7 +69,8 @@ bool WindowedEngine::try_window(const Stop& window_end) {
 Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
     const Lease lease(*this);
     Workshop& w = *lease;
-    w.loop->keeps_window = w.loop->keeps_anchors = w.loop->is_patient = true;
+    w.loop->keeps_window = false;  // nobody compares
+    w.loop->keeps_anchors = w.loop->is_patient = true;
     load(w, kAll, {bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0}, 0, window_end.time, false);
     EventLoop& loop = *w.loop;
     loop.room =

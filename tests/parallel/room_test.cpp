@@ -86,6 +86,24 @@ TEST(Room, ManyCollisionsOfFewBallsTakeManyWindows) {
     }
 }
 
+// Nor is a window held up by a ball that flies through thousands of millions of cells, as it may where an
+// edit has brought a pull for which the scene's own scales of time are long.
+TEST(Room, AWindowDoesNotFollowAFallThroughAllCells) {
+    Scene scene = driven(20);
+    scene.domain->boundary = {Boundary::kWall, Boundary::kPeriodic};
+    const auto fallen = [&scene](int domains) {
+        World world(scene, {.threads = 2, .domains = domains});
+        world.advance_to(1);
+        world.set_gravity({0, 1e16});
+        world.advance_to(1 + 1e-6);
+        Outcome out;
+        take_counts(world, out);
+        return out;
+    };
+    const Outcome serial = fallen(1);
+    for (const int domains : {2, 3}) expect_equal(fallen(domains), serial);
+}
+
 // A follower is told before more flights are there than a window may have collisions, of which each ends two
 // at most.
 TEST(Room, FewFlightsAreKeptForAFollower) {
