@@ -9,7 +9,7 @@ namespace carom {
 namespace {
 
 // So many cells of a halo are simulated to the window's end; the domain's own balls come there.
-constexpr std::int32_t kKept = 4;
+constexpr std::int32_t kKept = 6;
 // A window aims at a few collisions a ball; more than so many, and it was too long by far.
 constexpr std::uint64_t kMostCollisionsOfBall = 32;
 

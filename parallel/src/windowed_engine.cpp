@@ -8,7 +8,7 @@
 namespace carom {
 namespace {
 
-constexpr std::int32_t kHalo = 6;  // cells
+constexpr std::int32_t kHalo = 7;  // cells
 // The first window's share of an epoch; the next ones follow the collisions that it had.
 constexpr double kFirstWindow = 1.0 / 256;
 // The least window's share of an epoch: what cannot be cut finer, a row of touching balls that is hit at one
