@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -103,11 +104,12 @@ void compare_gas(std::uint64_t count, double packing, int seconds) {
 constexpr double kGravity = 9.81;
 constexpr double kAtRest = kGravity * 0.1;  // kinetic energy a ball: of a fall by a tenth of a diameter
 
-/// Balls of restitution 0.5 that fall into a box. The contact time is the one that such a scene gets where it
-/// names none.
-Scene pour(std::uint64_t count) {
+/// Balls of restitution 0.5 that fall into a box. Without a contact time it gets the one of scenes that name
+/// none.
+Scene pour(std::uint64_t count, std::optional<double> contact_time) {
     Scene s;
     s.gravity = {0, -kGravity};
+    s.contact_time = contact_time;
     s.domain = Domain{{{0, 0}, {160, 200}}, {Boundary::kWall, Boundary::kWall}, 0.5};
     Fill fill;
     fill.count = count;
@@ -119,8 +121,8 @@ Scene pour(std::uint64_t count) {
 }
 
 /// Until the mean kinetic energy is below kAtRest.
-void compare_pour(std::uint64_t count, int most_seconds) {
-    const Scene scene = pour(count);
+void compare_pour(std::uint64_t count, std::optional<double> contact_time, int most_seconds) {
+    const Scene scene = pour(count, contact_time);
     double carom_time = 0;
     for (const NamedPeer& named : peers()) {
         const std::unique_ptr<Peer> peer = named.make(scene, true);
@@ -148,8 +150,11 @@ void compare_pour(std::uint64_t count, int most_seconds) {
 int main(int argc, char** argv) {
     using namespace carom::bench;
     const std::string only = argc > 1 ? argv[1] : "";
-    if (argc > 2 || (!only.empty() && only != "gas" && only != "pour")) {
-        std::fputs("usage: carom_peers [gas|pour]\n", stderr);
+    std::optional<double> contact_time;
+    if (argc == 3) contact_time = std::strtod(argv[2], nullptr);
+    if (argc > 3 || (contact_time && (only != "pour" || !(*contact_time > 0))) ||
+        (!only.empty() && only != "gas" && only != "pour")) {
+        std::fputs("usage: carom_peers [gas|pour [CONTACT_TIME]]\n", stderr);
         return 2;
     }
     if (only != "pour") {
@@ -166,7 +171,7 @@ int main(int argc, char** argv) {
             "| scene | engine | time to rest | over Carom's | kinetic energy a ball at the end | balls more "
             "than 1 % of a radius in "
             "another | deepest overlap |\n| --- | --- | ---: | ---: | ---: | ---: | ---: |");
-        compare_pour(10000, 60);
+        compare_pour(10000, contact_time, 60);
     }
     return 0;
 }

@@ -245,7 +245,7 @@ void EmpiricalEngine::renew_field(const Time& t) {
     schedule();
 }
 
-void EmpiricalEngine::read(const Time& t, std::span<BallState> states) const {
+void EmpiricalEngine::visit_states(const Time& t, const VisitState& visit) const {
     executor_.for_ranges(size(), kGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             Anchor anchor;
@@ -254,8 +254,8 @@ void EmpiricalEngine::read(const Time& t, std::span<BallState> states) const {
             anchor.vx = vx_[i];
             anchor.vy = vy_[i];
             anchor.time = now_;
-            states[id_[i]] =
-                state_at(bodies_, anchor, periods_[i], acceleration_of(static_cast<std::uint32_t>(i)), t);
+            visit(id_[i],
+                  state_at(bodies_, anchor, periods_[i], acceleration_of(static_cast<std::uint32_t>(i)), t));
         }
     });
 }

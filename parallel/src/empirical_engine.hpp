@@ -39,7 +39,7 @@ class EmpiricalEngine final : public Engine {
     void advance_to(const Time& end, const Time& horizon) override;
     void renew_field(const Time& t) override;
     bool start_anew(const Time&, std::span<NewStart>) override { return false; }
-    void read(const Time& t, std::span<BallState> states) const override;
+    void visit_states(const Time& t, const VisitState& visit) const override;
     /// The balls as the last step has left them, and who overlapped then.
     void save(const Time& t, Snapshot& snapshot) const override;
     void audit(std::vector<Violation>& found) const override;

@@ -64,10 +64,10 @@ class SerialEngine final : public Engine {
         for (std::size_t k = 0; k < starts.size(); ++k) starts[k].state = loop_->state(here[k].ball, t);
         return true;
     }
-    void read(const Time& t, std::span<BallState> states) const override {
+    void visit_states(const Time& t, const VisitState& visit) const override {
         executor_.for_ranges(loop_->size(), 4096, [&](std::size_t first, std::size_t last) {
             for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
-                states[loop_->id(i)] = loop_->state(i, t);
+                visit(loop_->id(i), loop_->state(i, t));
         });
     }
     void save(const Time&, Snapshot& snapshot) const override {
@@ -143,7 +143,7 @@ std::span<const Flight> FlightList::of(const Anchor& last, const Vec2& accelerat
                                                                  : flights_.back().anchor.time < from.time);
         if (is_seen) break;
         const OverwrittenAnchor& o = overwritten[k];
-        add({o.x, o.y, o.vx, o.vy, o.time, 0, 0, {}}, acceleration, to);
+        add(anchor_of(o), acceleration, to);
     }
     std::ranges::reverse(flights_);
     return flights_;

@@ -45,8 +45,10 @@ class Engine {
     /// Starts balls anew at `t`, the time advanced to last, none twice. False where the engine has no such
     /// way, and nothing is done.
     [[nodiscard]] virtual bool start_anew(const Time& t, std::span<NewStart> starts) = 0;
-    /// The moving balls' states at `t`, the time advanced to last: states[id].
-    virtual void read(const Time& t, std::span<BallState> states) const = 0;
+    /// Calls visit(id, state) for every moving ball with its state at `t`, the time advanced to last: side by
+    /// side for the balls.
+    using VisitState = std::function<void(std::uint32_t, const BallState&)>;
+    virtual void visit_states(const Time& t, const VisitState& visit) const = 0;
     /// The numbers of the domains that own the moving balls: domains[id]. Left alone where there is one loop.
     virtual void read_domains(std::span<std::uint32_t> domains) const { (void)domains; }
     /// The same balls as they were left by their last events until `t`.

@@ -63,13 +63,20 @@ struct Hit {
 [[nodiscard]] Collision collision_of(const Bodies& bodies, double seconds, std::uint32_t id,
                                      std::uint32_t partner, const Vec2& centre, const Hit& hit);
 
-/// What an event has overwritten of an anchor, and the index of what was before it. One cache line.
+/// What an event has overwritten of ball `ball`'s anchor, and the index of what was before it. One cache
+/// line.
 struct OverwrittenAnchor {
     double x, y, vx, vy;
     Time time;
     Periods periods;
     std::uint32_t previous = kNowhere;
+    std::uint32_t ball = kNowhere;
 };
+static_assert(sizeof(OverwrittenAnchor) == 64);
+/// As far as the way from there on depends on it.
+[[nodiscard]] inline Anchor anchor_of(const OverwrittenAnchor& o) {
+    return {o.x, o.y, o.vx, o.vy, o.time, 0, 0, {}};
+}
 
 /// A ball that starts anew: elsewhere, at another velocity, or both.
 struct NewStart {

@@ -215,7 +215,8 @@ template <Acceleration A>
 void EventLoopOf<A>::keep_anchor(std::uint32_t i) {
     if (!keeps_anchors || !is_owned(i)) return;
     const Anchor& a = records_[i].anchor;
-    overwritten.push_back({a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, locals_[i].last_overwritten});
+    overwritten.push_back(
+        {a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, locals_[i].last_overwritten, i});
     locals_[i].last_overwritten = static_cast<std::uint32_t>(overwritten.size() - 1);
 }
 

@@ -90,6 +90,7 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
         for (; !chain.empty(); chain.pop_back()) {
             OverwrittenAnchor o = loop.overwritten[chain.back()];
             o.previous = last;
+            o.ball = static_cast<std::uint32_t>(d.results.size() - 1);
             last = static_cast<std::uint32_t>(d.overwritten.size());
             d.overwritten.push_back(o);
         }

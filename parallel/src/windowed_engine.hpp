@@ -38,7 +38,7 @@ class WindowedEngine final : public Engine {
     void advance_to(const Time& end, const Time& horizon) override;
     void renew_field(const Time& t) override;
     bool start_anew(const Time& t, std::span<NewStart> starts) override;
-    void read(const Time& t, std::span<BallState> states) const override;
+    void visit_states(const Time& t, const VisitState& visit) const override;
     void read_domains(std::span<std::uint32_t> domains) const override;
     void save(const Time& t, Snapshot& snapshot) const override;
     [[nodiscard]] std::uint32_t most_events() const override;

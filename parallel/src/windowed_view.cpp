@@ -120,9 +120,8 @@ WindowedEngine::Past WindowedEngine::past_of(const DomainState& d, std::size_t i
     if (!in_window_) return past;
     std::uint32_t o = d.last_overwritten[i];
     for (; past.anchor.time > t && o != kNowhere; o = d.overwritten[o].previous) {
-        const OverwrittenAnchor& before = d.overwritten[o];
-        past.anchor = {before.x, before.y, before.vx, before.vy, before.time, 0, 0, {}};
-        past.periods = before.periods;
+        past.anchor = anchor_of(d.overwritten[o]);
+        past.periods = d.overwritten[o].periods;
     }
     past.is_of_window = o != kNowhere;
     return past;
@@ -134,14 +133,24 @@ void WindowedEngine::read_domains(std::span<std::uint32_t> domains) const {
             domains[record.id] = static_cast<std::uint32_t>(d);
 }
 
-void WindowedEngine::read(const Time& t, std::span<BallState> states) const {
+void WindowedEngine::visit_states(const Time& t, const VisitState& visit) const {
     for_each_domain([&](std::size_t k) {
         const DomainState& d = domains_[k];
         const auto& [records, extras] = held(d);
+        // The last one of each ball by then; to follow the ball's chain would take as long as memory does for
+        // each link.
+        std::vector<std::uint32_t> last(records.size(), kNowhere);
+        for (std::uint32_t o = 0; in_window_ && o < d.overwritten.size(); ++o)
+            if (d.overwritten[o].time <= t) last[d.overwritten[o].ball] = o;
         for (std::size_t i = 0; i < records.size(); ++i) {
-            const Past past = past_of(d, i, t);
-            states[records[i].id] = state_at(bodies_, past.anchor, past.periods,
-                                             extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, t);
+            const BallRecord& r = records[i];
+            const Vec2 acceleration = extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration;
+            if (last[i] == kNowhere || r.anchor.time <= t) {
+                visit(r.id, state_at(bodies_, r.anchor, r.periods, acceleration, t));
+            } else {
+                const OverwrittenAnchor& o = d.overwritten[last[i]];
+                visit(r.id, state_at(bodies_, anchor_of(o), o.periods, acceleration, t));
+            }
         }
     });
 }

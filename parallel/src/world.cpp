@@ -67,24 +67,15 @@ double World::virial() const {
 }
 
 PlaneVectors World::positions() const {
-    const std::vector<BallState>& states = state_->states();
-    PlaneVectors out(states.size());
-    std::ranges::transform(states, out.begin(), &BallState::position);
-    return out;
+    return state_->vectors(&BallState::position);
 }
 
 PlaneVectors World::velocities() const {
-    const std::vector<BallState>& states = state_->states();
-    PlaneVectors out(states.size());
-    std::ranges::transform(states, out.begin(), &BallState::velocity);
-    return out;
+    return state_->vectors(&BallState::velocity);
 }
 
 PlaneVectors World::unwrapped_positions() const {
-    const std::vector<BallState>& states = state_->states();
-    PlaneVectors out(states.size());
-    std::ranges::transform(states, out.begin(), &BallState::unwrapped);
-    return out;
+    return state_->vectors(&BallState::unwrapped);
 }
 
 std::vector<Ball> World::balls() const {

@@ -183,7 +183,7 @@ void World::State::follow_flights() {
 }
 
 void World::State::forget() {
-    is_read_ = false;
+    is_read_ = was_asked_ = false;
     places_.reset();
 }
 
@@ -192,7 +192,7 @@ const std::vector<BallState>& World::State::states() const {
     const std::lock_guard lock(reading_);
     if (!is_read_) {
         read(*engine, states_);
-        is_read_ = true;
+        is_read_ = was_asked_ = true;
     }
     return states_;
 }
@@ -200,7 +200,22 @@ const std::vector<BallState>& World::State::states() const {
 void World::State::read(const Engine& e, std::vector<BallState>& all) const {
     all.resize(size());
     for (const auto& [index, state] : cast->fixed_states) all[index] = state;
-    e.read(now, all);
+    e.visit_states(now, [&all](std::uint32_t index, const BallState& state) { all[index] = state; });
+}
+
+/// One vector of each ball's state. Who asks but once at a time, as whoever draws frames does, gets it
+/// without all the states.
+PlaneVectors World::State::vectors(Vec2 BallState::* part) const {
+    require_rest();
+    PlaneVectors out(size());
+    if (was_asked_.exchange(true)) {
+        std::ranges::transform(states(), out.begin(), part);
+        return out;
+    }
+    for (const auto& [index, state] : cast->fixed_states) out[index] = state.*part;
+    engine->visit_states(
+        now, [&out, part](std::uint32_t index, const BallState& state) { out[index] = state.*part; });
+    return out;
 }
 
 const PlaceIndex& World::State::places() const {

@@ -5,6 +5,7 @@
 #include <carom/parallel/world.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -77,6 +78,7 @@ class World::State {
     [[nodiscard]] std::size_t size() const { return bodies().count; }
     /// Every ball's state now, by index; read once for each time.
     [[nodiscard]] const std::vector<BallState>& states() const;
+    [[nodiscard]] PlaneVectors vectors(Vec2 BallState::* part) const;
     [[nodiscard]] Ball ball(std::uint32_t index, const BallState& s) const;
     [[nodiscard]] std::vector<Ball> balls() const;
     /// The index of a ball by its id. Throws std::out_of_range where it is not there.
@@ -162,6 +164,7 @@ class World::State {
     std::unique_ptr<SensorWatch> watch_;  // where somebody listens
     mutable std::mutex reading_;
     mutable bool is_read_ = false;
+    mutable std::atomic<bool> was_asked_ = false;  // for states at the present time
     mutable std::vector<BallState> states_;
     mutable std::unique_ptr<PlaceIndex> places_;
 };
