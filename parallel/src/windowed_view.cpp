@@ -137,8 +137,7 @@ void WindowedEngine::visit_states(const Time& t, const VisitState& visit) const 
     for_each_domain([&](std::size_t k) {
         const DomainState& d = domains_[k];
         const auto& [records, extras] = held(d);
-        // The last one of each ball by then; to follow the ball's chain would take as long as memory does for
-        // each link.
+        // Each ball's latest of then, in one pass: a chain costs a miss of the cache for every link.
         std::vector<std::uint32_t> last(records.size(), kNowhere);
         for (std::uint32_t o = 0; in_window_ && o < d.overwritten.size(); ++o)
             if (d.overwritten[o].time <= t) last[d.overwritten[o].ball] = o;
