@@ -151,7 +151,7 @@ void Examination::take_snapshot(const Watched& plain, std::size_t stop, bool is_
 /// The edits of this stop are drawn for the plain run's state; all other worlds get the same.
 void Examination::edit_plain(Watched& plain, std::size_t stop, Replay& replay) {
     World& world = plain.world();
-    bool is_edited = false;
+    std::optional<Scene> now;  // where it is edited
     for (const std::uint32_t number : trial_.edits) {
         if (stretch_of_edit(trial_.seed, number, kStretches) != stop) continue;
         const Edits edits = draw_edits(trial_.seed, number, scene_, world);
@@ -160,13 +160,12 @@ void Examination::edit_plain(Watched& plain, std::size_t stop, Replay& replay) {
         if (!edited.fault.empty())
             throw Failure{"edits", fmt::format("edit {} at time {}: {}", number, world.time(), edited.fault)};
         if (edited.is_refused) continue;
-        is_edited = true;
-        replay.start_anew(scene_now(scene_, world), world);  // each edit may bring what lasts: a rest time
+        now = scene_now(scene_, world);
+        replay.start_anew(*now, world);  // each edit may bring what lasts: a rest time
     }
-    if (!is_edited) return;
-    const Scene now = scene_now(scene_, world);
-    has_field_ = has_field_ || !now.attractors.empty();
-    legs_.push_back(leg_from(now, world, true));
+    if (!now) return;
+    has_field_ = has_field_ || !now->attractors.empty();
+    legs_.push_back(leg_from(*now, world, true));
 }
 
 void Examination::repeat_edits(Watched& w, std::size_t stop) {

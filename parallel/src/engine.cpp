@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace carom {
 namespace {
@@ -108,8 +107,7 @@ class SerialEngine final : public Engine {
     }
     void forget_anchors() {
         loop_->forget_anchors();
-        loop_->room =
-            follower_ ? loop_->room_for(kCollisionsOfBall) : std::numeric_limits<std::uint64_t>::max();
+        loop_->room = follower_ ? loop_->room_for(kCollisionsOfBall) : EventLoop::kEndless;
     }
 
     const Executor& executor_;

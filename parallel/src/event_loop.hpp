@@ -161,7 +161,8 @@ class EventLoop {
     bool keeps_anchors = false;  ///< whether overwritten anchors are
     /// What is kept of events must fit the memory: when the load is as high as that, the loop stops before
     /// time goes on, or tells `on_part`, which makes room.
-    std::uint64_t room = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t room = kEndless;
+    static constexpr std::uint64_t kEndless = std::numeric_limits<std::uint64_t>::max();
     /// Room for so many collisions a ball from now on, and for what few balls may have.
     [[nodiscard]] std::uint64_t room_for(std::uint64_t collisions_of_ball) const {
         return load() + kLoadOfCollision * (10'000 + collisions_of_ball * size());

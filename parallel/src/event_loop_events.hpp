@@ -54,8 +54,10 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
         const double key = queue_.key(i);
         if (!(key < end || (inclusive && key == end))) return;
         if (key > now_) {
-            if (load() >= room) make_room(key);
-            if (full_) return;
+            if (load() >= room) {
+                make_room(key);
+                if (full_) return;
+            }
             now_ = key;
             if (filters_ && sights_.are_worn(now_)) sight_all();
             events_at_once_ = 0;

@@ -111,12 +111,11 @@ void WindowedEngine::run(DomainState& d, const Stop& window_end) {
     w.loop->start();
     try {
         w.loop->advance_to(window_end.time, window_end.is_whole);
-        d.is_full = w.loop->is_full();
-        d.failed = w.loop->has_failed() || d.is_full;
+        d.failed = w.loop->has_failed() || w.loop->is_full();
     } catch (const std::runtime_error&) {
-        d.is_full = false;
         d.failed = true;  // perhaps only because a copy went astray: all balls together will tell
     }
+    d.is_full = w.loop->is_full();
     keep_outcome(d, w, window_end.time);
 }
 

@@ -73,8 +73,7 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
     w.loop->keeps_anchors = w.loop->is_patient = true;
     load(w, kAll, {bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0}, 0, window_end.time, false);
     EventLoop& loop = *w.loop;
-    loop.room =
-        may_end_early ? loop.room_for(kMostCollisionsTogether) : std::numeric_limits<std::uint64_t>::max();
+    loop.room = may_end_early ? loop.room_for(kMostCollisionsTogether) : EventLoop::kEndless;
     loop.start();
     loop.advance_to(window_end.time, window_end.is_whole);
     for (DomainState& d : domains_) d.clear_outcome();

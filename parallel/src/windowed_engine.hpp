@@ -96,7 +96,7 @@ class WindowedEngine final : public Engine {
     void keep_outcome(DomainState& d, Workshop& w, const Time& window_end);
     [[nodiscard]] bool agrees(const DomainState& d) const;
     [[nodiscard]] bool try_window(const Stop& window_end);
-    Stop run_together(const Stop& window_end, bool may_end_early);
+    [[nodiscard]] Stop run_together(const Stop& window_end, bool may_end_early);
     void predict_anew(bool renews_field);
     void next_window(const Time& wanted, const Time& horizon);
     void skip_quiet_epochs(const Time& until);
@@ -122,7 +122,9 @@ class WindowedEngine final : public Engine {
         Periods periods;
         bool is_of_window;  ///< whether that event lies within the window
     };
-    [[nodiscard]] Past past_of(const DomainState& d, std::size_t i, const Time& t) const;
+    [[nodiscard]] std::vector<std::uint32_t> latest_until(const DomainState& d, const Time& t) const;
+    [[nodiscard]] Past past_of(const DomainState& d, std::size_t i, std::uint32_t latest,
+                               const Time& t) const;
     void tune(double length, bool agreed);
 
     mutable std::atomic<std::chrono::steady_clock::rep> working_time_ = 0;

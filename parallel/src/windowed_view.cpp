@@ -114,17 +114,22 @@ bool WindowedEngine::start_anew(const Time& t, std::span<NewStart> starts) {
     return true;
 }
 
-WindowedEngine::Past WindowedEngine::past_of(const DomainState& d, std::size_t i, const Time& t) const {
+/// Each ball's last anchor until `t` among the overwritten ones. One pass, for a ball's chain costs a miss of
+/// the cache for every link.
+std::vector<std::uint32_t> WindowedEngine::latest_until(const DomainState& d, const Time& t) const {
+    std::vector<std::uint32_t> latest(held(d).records.size(), kNowhere);
+    for (std::uint32_t o = 0; in_window_ && o < d.overwritten.size(); ++o)
+        if (d.overwritten[o].time <= t) latest[d.overwritten[o].ball] = o;
+    return latest;
+}
+
+WindowedEngine::Past WindowedEngine::past_of(const DomainState& d, std::size_t i, std::uint32_t latest,
+                                             const Time& t) const {
     const BallRecord& r = held(d).records[i];
-    Past past{r.anchor, r.periods, false};
-    if (!in_window_) return past;
-    std::uint32_t o = d.last_overwritten[i];
-    for (; past.anchor.time > t && o != kNowhere; o = d.overwritten[o].previous) {
-        past.anchor = anchor_of(d.overwritten[o]);
-        past.periods = d.overwritten[o].periods;
-    }
-    past.is_of_window = o != kNowhere;
-    return past;
+    if (latest == kNowhere || r.anchor.time <= t)
+        return {r.anchor, r.periods, in_window_ && d.last_overwritten[i] != kNowhere};
+    const OverwrittenAnchor& o = d.overwritten[latest];
+    return {anchor_of(o), o.periods, o.previous != kNowhere};
 }
 
 void WindowedEngine::read_domains(std::span<std::uint32_t> domains) const {
@@ -137,19 +142,11 @@ void WindowedEngine::visit_states(const Time& t, const VisitState& visit) const 
     for_each_domain([&](std::size_t k) {
         const DomainState& d = domains_[k];
         const auto& [records, extras] = held(d);
-        // Each ball's latest of then, in one pass: a chain costs a miss of the cache for every link.
-        std::vector<std::uint32_t> last(records.size(), kNowhere);
-        for (std::uint32_t o = 0; in_window_ && o < d.overwritten.size(); ++o)
-            if (d.overwritten[o].time <= t) last[d.overwritten[o].ball] = o;
+        const std::vector<std::uint32_t> latest = latest_until(d, t);
         for (std::size_t i = 0; i < records.size(); ++i) {
-            const BallRecord& r = records[i];
-            const Vec2 acceleration = extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration;
-            if (last[i] == kNowhere || r.anchor.time <= t) {
-                visit(r.id, state_at(bodies_, r.anchor, r.periods, acceleration, t));
-            } else {
-                const OverwrittenAnchor& o = d.overwritten[last[i]];
-                visit(r.id, state_at(bodies_, anchor_of(o), o.periods, acceleration, t));
-            }
+            const Past past = past_of(d, i, latest[i], t);
+            visit(records[i].id, state_at(bodies_, past.anchor, past.periods,
+                                          extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, t));
         }
     });
 }
@@ -180,8 +177,9 @@ void WindowedEngine::save(const Time& t, Snapshot& snapshot) const {
     for_each_domain([&](std::size_t k) {
         const DomainState& d = domains_[k];
         const auto& [records, extras] = held(d);
+        const std::vector<std::uint32_t> latest = latest_until(d, t);
         for (std::size_t i = 0; i < records.size(); ++i) {
-            const Past past = past_of(d, i, t);
+            const Past past = past_of(d, i, latest[i], t);
             BallExtra extra = extras.empty() ? BallExtra{} : extras[i];
             if (!before_window.empty())
                 extra.last_collision = past.is_of_window ? past.anchor.time : before_window[records[i].id];
@@ -213,12 +211,11 @@ void WindowedEngine::audit(std::vector<Violation>& found) const {
 void WindowedEngine::rewind_to_now() {
     if (!in_window_ || (window_end_.time == now_ && window_end_.is_whole)) return;
     // The window again, up to now only; its events are counted and told already.
-    run_together({now_}, false);
+    window_end_ = run_together({now_}, false);
     for (DomainState& d : domains_) {
         d.notes.clear();
         d.collisions.clear();
     }
-    window_end_ = {now_};
 }
 
 void WindowedEngine::listen(std::function<void(const Collision&)> listener) {

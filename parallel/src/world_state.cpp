@@ -199,8 +199,13 @@ const std::vector<BallState>& World::State::states() const {
 
 void World::State::read(const Engine& e, std::vector<BallState>& all) const {
     all.resize(size());
-    for (const auto& [index, state] : cast->fixed_states) all[index] = state;
-    e.visit_states(now, [&all](std::uint32_t index, const BallState& state) { all[index] = state; });
+    visit_states(e, [&all](std::uint32_t index, const BallState& state) { all[index] = state; });
+}
+
+/// Those of static balls too.
+void World::State::visit_states(const Engine& e, const Engine::VisitState& visit) const {
+    for (const auto& [index, state] : cast->fixed_states) visit(index, state);
+    e.visit_states(now, visit);
 }
 
 /// One vector of each ball's state. Who asks but once at a time, as whoever draws frames does, gets it
@@ -212,9 +217,8 @@ PlaneVectors World::State::vectors(Vec2 BallState::* part) const {
         std::ranges::transform(states(), out.begin(), part);
         return out;
     }
-    for (const auto& [index, state] : cast->fixed_states) out[index] = state.*part;
-    engine->visit_states(
-        now, [&out, part](std::uint32_t index, const BallState& state) { out[index] = state.*part; });
+    visit_states(*engine,
+                 [&out, part](std::uint32_t index, const BallState& state) { out[index] = state.*part; });
     return out;
 }
 

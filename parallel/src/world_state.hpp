@@ -152,6 +152,7 @@ class World::State {
     void forget();
     [[nodiscard]] Snapshot snapshot_of(const Engine& e) const;
     void read(const Engine& e, std::vector<BallState>& all) const;
+    void visit_states(const Engine& e, const Engine::VisitState& visit) const;
     [[nodiscard]] std::unique_ptr<Engine> make_from(const Cast& of, const Snapshot& s) const {
         return make_engine(of.bodies, start_from(of.bodies, s, executor), executor, wanted);
     }
