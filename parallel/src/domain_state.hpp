@@ -1,8 +1,11 @@
 // A domain: the balls in a rectangle of cells, and what came of the window that it went through last.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "event_loop.hpp"
@@ -21,6 +24,7 @@ struct BallMessage {
     BallRecord record;
     BallExtra extra;
     Origin origin;
+    Origin before;           ///< its origin in the window before
     std::int32_t depth = 0;  ///< cells beyond the receiver's own, 0 inside
 };
 
@@ -44,23 +48,50 @@ struct OwnVisit {
     CellCoordinates cell;  ///< folded into the box on periodic axes
 };
 
-struct DomainState {
-    Span x, y;  ///< its own cells
+/// What a domain works with while it goes through a window.
+struct Workshop {
+    std::unique_ptr<EventLoop> loop;
+    std::vector<std::uint32_t> own;     ///< places in the loop of the domain's own balls
+    std::vector<std::uint32_t> copies;  ///< of the others, in the order of their origins
+    std::vector<Origin> origins;        ///< one a place in the loop
 
-    // At the start of the window: the balls that it simulated last, wherever they are now.
+    // While it is filled.
+    std::vector<BallMessage> message;
+    std::vector<std::uint32_t> residents;          ///< where the domain's records are in the loop
+    std::vector<std::vector<std::uint32_t>> here;  ///< where copies are, by their last origins
+    std::vector<std::uint32_t> places;             ///< of the message's balls
+    std::thread::id thread;                        ///< that used it last
+};
+
+/// The balls that a domain has simulated last, at the end of a window, wherever they are.
+struct Roster {
     std::vector<BallRecord> records;
     std::vector<BallExtra> extras;           ///< one a record where the scene needs them
+    std::vector<Origin> origins;             ///< of the records in that window; empty where there was none
+    std::vector<std::uint32_t> places;       ///< in that window's loop, likewise
     std::vector<CellCoordinates> cells;      ///< of the records, folded into the box on periodic axes
     Span cells_x, cells_y;                   ///< that hold them all
     std::vector<std::uint32_t> near_border;  ///< those that halos as wide as all start with may hold
-    std::vector<std::uint64_t> histories;    ///< of the records in the window, written by their owners
 
-    // After the window: its own balls.
-    std::vector<BallRecord> results;
-    std::vector<BallExtra> result_extras;
-    std::vector<CellCoordinates> result_cells;  ///< of the results, folded into the box on periodic axes
+    void clear() {
+        const auto empty = [](auto&... tables) { (tables.clear(), ...); };
+        empty(records, extras, origins, places, cells, near_border);
+    }
+    /// One more than the last of `places`.
+    [[nodiscard]] std::uint32_t places_end() const {
+        return places.empty() ? 0 : std::ranges::max(places) + 1;
+    }
+};
+
+struct DomainState {
+    Span x, y;                             ///< its own cells
+    Roster start;                          ///< of the window
+    Roster end;                            ///< the domain's own balls after it
+    std::vector<std::uint64_t> histories;  ///< of the balls of `start` in the window, written by their owners
+
+    // What came of the window.
     std::vector<OverwrittenAnchor> overwritten;
-    std::vector<std::uint32_t> last_overwritten;  ///< one a result
+    std::vector<std::uint32_t> last_overwritten;  ///< one a ball of `end`
     std::vector<CollisionNote> notes;
     std::vector<Collision> collisions;  ///< one a note where somebody listens
     std::size_t told = 0;               ///< so many of the notes lie in the past
@@ -72,16 +103,23 @@ struct DomainState {
     std::int32_t halo = 0;
     std::vector<CopyOutcome> copies;  ///< in the order of their origins
     std::vector<CopyVisit> copy_visits;
-    std::vector<OwnVisit> visits;
+    std::vector<Visit> visits;                 ///< of its own balls, by their places in the loop
+    std::vector<OwnVisit> visits_near_border;  ///< those that halos as wide as all start with may reach
     std::vector<std::uint8_t> touched;
     bool failed = false;
     bool is_full = false;  ///< failed for there was no room for all its collisions
 
+    /// Of its own where each thread has one domain: what it holds when a window has ended is there for the
+    /// next.
+    std::unique_ptr<Workshop> workshop;
+    bool can_go_on = false;  ///< the workshop holds what the last window came to
+
     /// Forgets what the last window came to.
     void clear_outcome() {
         const auto empty = [](auto&... tables) { (tables.clear(), ...); };
-        empty(results, result_extras, result_cells, overwritten, last_overwritten, notes, collisions, copies,
-              copy_visits, visits);
+        end.clear();
+        empty(overwritten, last_overwritten, notes, collisions, copies, copy_visits, visits,
+              visits_near_border);
         told = 0;
         events = copied_collisions = 0;
     }

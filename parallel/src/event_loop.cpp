@@ -23,13 +23,27 @@ void EventLoop::clear(const Region& region, const Time& now) {
         std::fill_n(is_inside_.begin() + y * row + 1, std::max<std::ptrdiff_t>(row - 2, 0), std::uint8_t{1});
     epoch_ = now.epoch;
     now_ = now.offset;
+    const auto empty = [](auto&... tables) { (tables.clear(), ...); };
+    empty(records_, locals_, radius_, acceleration_, last_collision_, large_, free_);
+    forget_window();
+}
+
+void EventLoop::go_on() {
+    for (Local& local : locals_) {
+        local.history = 0;
+        local.last_overwritten = kNowhere;
+    }
+    forget_window();
+}
+
+void EventLoop::forget_window() {
     simultaneous_ = failed_ = full_ = false;
     turns_ = events_at_once_ = 0;
     events = collisions_of_all = 0;
     const auto empty = [](auto&... tables) { (tables.clear(), ...); };
-    empty(records_, locals_, radius_, acceleration_, last_collision_, large_, notes, collisions, overwritten,
-          visits, visits_of_copies);
+    empty(notes, collisions, overwritten, visits, visits_of_copies);
     if (!keeps_window) return;
+    const Region& region = region_;
     touched.assign(static_cast<std::size_t>(region.mark_count()), 0);
     // The domain's own cells are touched, and those beside them.
     const auto own_marks = [](const RegionAxis& axis) {
@@ -47,16 +61,29 @@ void EventLoop::clear(const Region& region, const Time& now) {
 
 void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end) {
     const auto i = size();
-    BallRecord& r = records_.emplace_back(record);
+    records_.emplace_back();
+    locals_.emplace_back();
+    sights_.add(bodies_.radius.of(record.id));
+    if (!bodies_.radius.is_one()) radius_.emplace_back();
+    if (bodies_.accelerates_each()) acceleration_.emplace_back();
+    if (bodies_.physics.contact_time > 0) last_collision_.emplace_back();
+    seat(i, record, extra, is_owned, end);
+}
+
+/// Gives ball i's place in the loop to a ball, which nothing names yet.
+void EventLoop::seat(std::uint32_t i, const BallRecord& record, const BallExtra* extra, bool is_owned,
+                     const Time& end) {
+    BallRecord& r = records_[i];
+    r = record;
     r.next.local = kNowhere;
-    Local& local = locals_.emplace_back();
+    Local& local = locals_[i];
+    local = {};
     local.owned = is_owned ? 1 : 0;
     local.frame = region_.frame_of(r.anchor.cell);
     local.end = clock_.since_epoch(end, epoch_);
-    sights_.add(bodies_.radius.of(record.id));
-    if (!bodies_.radius.is_one()) radius_.push_back(bodies_.radius.of(record.id));
-    if (bodies_.accelerates_each()) acceleration_.push_back(extra->acceleration);
-    if (bodies_.physics.contact_time > 0) last_collision_.push_back(extra->last_collision);
+    if (!radius_.empty()) radius_[i] = bodies_.radius.of(record.id);
+    if (!acceleration_.empty()) acceleration_[i] = extra->acceleration;
+    if (!last_collision_.empty()) last_collision_[i] = extra->last_collision;
     r.anchor.place = place_of(i, r.anchor.cell);
     if (!bodies_.large.empty() && std::ranges::binary_search(bodies_.large, record.id))
         large_.push_back(i);
@@ -113,6 +140,84 @@ void EventLoopOf<A>::start() {
         predict_crossing(i);
     }
     begin();
+}
+
+template <Acceleration A>
+std::uint32_t EventLoopOf<A>::enter(const BallRecord& record, const BallExtra& extra, bool is_owned,
+                                    const Time& end) {
+    std::uint32_t i = size();
+    if (free_.empty()) {
+        add(record, &extra, is_owned, end);
+        queue_.grow(size());
+    } else {
+        i = free_.back();
+        free_.pop_back();
+        sights_.replace(i, bodies_.radius.of(record.id));
+        seat(i, record, &extra, is_owned, end);
+    }
+    if (filters_) sight(i);
+    schedule(i);
+    return i;
+}
+
+template <Acceleration A>
+void EventLoopOf<A>::remove(std::uint32_t i) {
+    wake_partner(i);
+    locals_[i].asleep = 0;
+    locals_[i].end = -std::numeric_limits<double>::infinity();
+    reschedule(i);
+    cells_.remove(records_[i].anchor.place, i);
+    records_[i].id = kNowhere;
+    free_.push_back(i);
+}
+
+/// Until when a copy is simulated. A partner that relies on its event might lose it by that.
+template <Acceleration A>
+void EventLoopOf<A>::set_end(std::uint32_t i, const Time& end) {
+    const double since = clock_.since_epoch(end, epoch_);
+    if (since == locals_[i].end) return;
+    wake_partner(i);
+    locals_[i].end = since;
+}
+
+template <Acceleration A>
+void EventLoopOf<A>::hand_over(std::uint32_t i, const Time& end) {
+    locals_[i].owned = 0;
+    set_end(i, end);
+    reschedule(i);
+}
+
+template <Acceleration A>
+void EventLoopOf<A>::renew(std::uint32_t i, const BallRecord& record, const BallExtra& extra, bool is_owned,
+                           const Time& end) {
+    BallRecord& r = records_[i];
+    const auto flight = [](const Anchor& a) {
+        return std::tuple(a.time, a.stamp, a.x, a.y, a.vx, a.vy, a.cell);
+    };
+    const auto event = [](const NextEvent& e) {
+        return std::tuple(e.time, e.partner, e.stamp, e.image_x, e.image_y);
+    };
+    if (flight(r.anchor) != flight(record.anchor)) {  // the copy went another way
+        wake_partner(i);
+        cells_.remove(r.anchor.place, i);
+        seat(i, record, &extra, is_owned, end);
+        if (filters_) sight(i);
+        schedule(i);
+        return;
+    }
+    locals_[i].owned = is_owned ? 1 : 0;
+    set_end(i, end);
+    if (!last_collision_.empty()) last_collision_[i] = extra.last_collision;
+    r.crossing_time = record.crossing_time;
+    r.crossing_dx = record.crossing_dx;
+    r.crossing_dy = record.crossing_dy;
+    if (event(r.next) != event(record.next)) {
+        wake_partner(i);
+        r.next = record.next;
+        r.next.local = kNowhere;
+        locals_[i].asleep = 0;
+    }
+    reschedule(i);
 }
 
 template <Acceleration A>

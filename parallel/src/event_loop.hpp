@@ -106,6 +106,25 @@ class EventLoop {
     /// Adds a ball whose cell lies in the region, `crossing_time` since the epoch of `now`. A copy is
     /// simulated until `end`.
     void add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end = kNever);
+    // ---- Going on for one more window from where the last one ended, instead of filling.
+    /// Whether the loop holds balls of a region as wide at `now`, and can go on.
+    [[nodiscard]] bool can_go_on(const Region& region, const Time& now) const {
+        return region == region_ && bodies_.large.empty() && !failed_ && !full_ && time_now() == now;
+    }
+    /// Forgets what the last window came to. The balls stay.
+    void go_on();
+    /// Ball i as its owner has it now; it is a copy, or was one until now.
+    virtual void renew(std::uint32_t i, const BallRecord& record, const BallExtra& extra, bool is_owned,
+                       const Time& end) = 0;
+    /// A ball that was not here, in place of one that was removed if there is one. Gives its place in the
+    /// loop.
+    virtual std::uint32_t enter(const BallRecord& record, const BallExtra& extra, bool is_owned,
+                                const Time& end) = 0;
+    /// Ball i, one of the domain's own, is a copy from now on, simulated until `end`.
+    virtual void hand_over(std::uint32_t i, const Time& end) = 0;
+    /// Takes ball i out. Events of others that name it are dropped when they come up.
+    virtual void remove(std::uint32_t i) = 0;
+
     /// Balls i and j may be each the other's partner: then i need not look for it.
     void suggest_partner(std::uint32_t i, std::uint32_t j) {
         if (records_[i].next.partner == records_[j].id) records_[i].next.local = j;
@@ -190,6 +209,9 @@ class EventLoop {
     /// Of all events so far, copies' included.
     [[nodiscard]] std::uint64_t load() const { return kLoadOfCollision * collisions_of_all + turns_; }
     void begin();
+    void forget_window();
+    void seat(std::uint32_t i, const BallRecord& record, const BallExtra* extra, bool is_owned,
+              const Time& end);
     void touch(const CellCoordinates& cell);
     [[nodiscard]] double radius_of(std::uint32_t i) const {
         return bodies_.radius.is_one() ? bodies_.radius.of(0) : radius_[i];
@@ -238,6 +260,7 @@ class EventLoop {
     std::vector<Vec2> acceleration_;    // only where it differs from ball to ball
     std::vector<Time> last_collision_;  // only where the contact time is not 0
     std::vector<std::uint32_t> large_;
+    std::vector<std::uint32_t> free_;  // of no ball
     std::vector<std::uint32_t> tied_;
 
     std::int64_t epoch_ = 0;

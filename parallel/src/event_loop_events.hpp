@@ -187,7 +187,7 @@ void EventLoopOf<A>::collide_first(std::uint32_t i) {
         if (j == kNowhere && !is_inside) return lose(i);
         records_[i].next.local = j;
     }
-    if (j == kNowhere || (records_[j].anchor.stamp != event.stamp && !is_active(Fault::kStalePartner)))
+    if (j == kNowhere || (!is_current(records_[i].next) && !is_active(Fault::kStalePartner)))
         expect(i, search(i));  // the partner has gone another way
     else if (now_ > locals_[j].end)
         lose(i);  // perhaps it has, perhaps not

@@ -25,6 +25,12 @@ class EventLoopOf final : public EventLoop {
     void renew_field(const Time& t) override;
     void start_anew(const Time& t, std::span<const NewStart> starts) override;
     void audit(std::vector<Violation>& found) const override;
+    void renew(std::uint32_t i, const BallRecord& record, const BallExtra& extra, bool is_owned,
+               const Time& end) override;
+    std::uint32_t enter(const BallRecord& record, const BallExtra& extra, bool is_owned,
+                        const Time& end) override;
+    void hand_over(std::uint32_t i, const Time& end) override;
+    void remove(std::uint32_t i) override;
 
  private:
     [[nodiscard]] Vec2 acceleration_of(std::uint32_t i) const {
@@ -114,6 +120,15 @@ class EventLoopOf final : public EventLoop {
     }
     [[nodiscard]] NextEvent search_among(std::uint32_t i, const Candidates& found, bool has_looked) const;
     void expect(std::uint32_t i, const NextEvent& event);
+    /// Whether an event's partner, looked for here, is still the one that it was predicted for.
+    [[nodiscard]] bool is_current(const NextEvent& event) const {
+        const BallRecord& partner = records_[event.local];
+        return partner.anchor.stamp == event.stamp && partner.id == event.partner;
+    }
+    void reschedule(std::uint32_t i) {
+        if (const double key = key_of(i); key != queue_.key(i)) queue_.set(i, key);
+    }
+    void set_end(std::uint32_t i, const Time& end);
     void wake_partner(std::uint32_t i);
     [[gnu::noinline]] void lose(std::uint32_t i);
     [[gnu::noinline]] void tell_lower(std::uint32_t i);

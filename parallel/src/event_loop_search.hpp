@@ -307,8 +307,8 @@ void EventLoopOf<A>::tell_lower(std::uint32_t i) {
     const auto tell_if_now = [this, &tell](std::uint32_t j, const NextEvent& event) {
         if (event.local == j && clock_.since_epoch(event.time, epoch_) == now_) tell(j, event);
     };
-    if (const NextEvent event = records_[i].next; event.local != kNowhere && event.partner < records_[i].id &&
-                                                  records_[event.local].anchor.stamp == event.stamp)
+    if (const NextEvent event = records_[i].next;
+        event.local != kNowhere && event.partner < records_[i].id && is_current(event))
         tell(event.local, event);
     // What comes later is not asked for, which spares most pairs the search for a root.
     const NextEvent now{.time = time_now()};

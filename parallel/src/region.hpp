@@ -14,6 +14,7 @@ struct Span {
     std::int32_t last = 0;
     [[nodiscard]] std::int64_t size() const { return std::int64_t{last} - first; }
     [[nodiscard]] bool contains(std::int32_t k) const { return k >= first && k < last; }
+    friend bool operator==(const Span&, const Span&) = default;
 };
 
 /// One axis of a region: the domain's own cells with a halo, or the whole axis where that is no less.
@@ -24,6 +25,7 @@ struct Span {
 class RegionAxis {
  public:
     RegionAxis() = default;
+    friend bool operator==(const RegionAxis&, const RegionAxis&) = default;
     RegionAxis(const GridAxis& axis, Span own, std::int32_t halo) : own_(own), count_(axis.count()) {
         constexpr std::int32_t kFarthest = GridAxis::kFarthest;
         if (axis.periodic()) {
@@ -146,6 +148,7 @@ struct Region {
     RegionAxis y;
 
     Region() = default;
+    friend bool operator==(const Region&, const Region&) = default;
     Region(const Grid& grid, Span own_x, Span own_y, std::int32_t halo)
         : x(grid.x, own_x, halo), y(grid.y, own_y, halo) {}
 

@@ -30,6 +30,10 @@ class Sights {
         rows_.emplace_back();
         if (!has_one_radius_) radius_.push_back(static_cast<float>(radius * per_unit_));
     }
+    /// Ball i is another one now; set() is to follow.
+    void replace(std::uint32_t i, double radius) {
+        if (!has_one_radius_) radius_[i] = static_cast<float>(radius * per_unit_);
+    }
     /// Whether the margins are small enough for bounds to be of use, and images are clear.
     [[nodiscard]] bool are_of_use() const { return are_of_use_; }
 

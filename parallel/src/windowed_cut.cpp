@@ -18,12 +18,12 @@ void WindowedEngine::split(const std::vector<BallRecord>& records, const std::ve
         DomainState& d = domains_.emplace_back();
         d.x = own_x;
         d.y = own_y;
-        d.results.reserve(own.size());
-        for (const BallInCell& ball : own) d.results.push_back(records[ball.record]);
+        d.start.records.reserve(own.size());
+        for (const BallInCell& ball : own) d.start.records.push_back(records[ball.record]);
         if (!extras.empty())
-            for (const BallInCell& ball : own) d.result_extras.push_back(extras[ball.record]);
-        index_results(d);
-        take_results(d);
+            for (const BallInCell& ball : own) d.start.extras.push_back(extras[ball.record]);
+        index(d, d.start);
+        d.histories.resize(own.size());
     });
 }
 
@@ -81,43 +81,31 @@ void WindowedEngine::split_anew() {
     std::vector<BallExtra> extras;
     records.reserve(bodies_.moving);
     for (DomainState& d : domains_) {
-        records.insert(records.end(), d.records.begin(), d.records.end());
-        extras.insert(extras.end(), d.extras.begin(), d.extras.end());
-        d.records = {};
+        records.insert(records.end(), d.start.records.begin(), d.start.records.end());
+        extras.insert(extras.end(), d.start.extras.begin(), d.start.extras.end());
+        d.start = {};
     }
     domains_.clear();
     split(records, extras, whole(bodies_.grid.x), whole(bodies_.grid.y), wanted_domains_);
     since_split_ = 0;
 }
 
-void WindowedEngine::index_results(DomainState& d) const {
-    d.result_cells.clear();
-    d.result_cells.reserve(d.results.size());
-    for (const BallRecord& r : d.results)
-        d.result_cells.push_back(fold_periodic(bodies_.grid, r.anchor.cell));
-}
-
-/// The results become the records.
-void WindowedEngine::take_results(DomainState& d) const {
-    std::swap(d.records, d.results);
-    std::swap(d.extras, d.result_extras);
-    std::swap(d.cells, d.result_cells);
-    index_records(d);
-    d.histories.assign(d.records.size(), 0);
-}
-
-/// Where the records are, by their cells.
-void WindowedEngine::index_records(DomainState& d) const {
-    d.cells_x = d.cells_y = {GridAxis::kFarthest, -GridAxis::kFarthest};
-    d.near_border.clear();
+/// Where the balls of one of domain d's rosters are.
+void WindowedEngine::index(const DomainState& d, Roster& roster) const {
+    roster.cells_x = roster.cells_y = {GridAxis::kFarthest, -GridAxis::kFarthest};
+    roster.cells.clear();
+    roster.near_border.clear();
+    roster.cells.reserve(roster.records.size());
     const auto is_near = [this](const Span& own, std::int32_t k) {
         return k < own.first + halo_ || k >= own.last - halo_;
     };
-    for (std::uint32_t k = 0; k < d.cells.size(); ++k) {
-        const CellCoordinates& c = d.cells[k];
-        if (is_near(d.x, c.x) || is_near(d.y, c.y)) d.near_border.push_back(k);
-        d.cells_x = {std::min(d.cells_x.first, c.x), std::max(d.cells_x.last, c.x + 1)};
-        d.cells_y = {std::min(d.cells_y.first, c.y), std::max(d.cells_y.last, c.y + 1)};
+    for (const BallRecord& r : roster.records) {
+        const CellCoordinates c = fold_periodic(bodies_.grid, r.anchor.cell);
+        if (is_near(d.x, c.x) || is_near(d.y, c.y))
+            roster.near_border.push_back(static_cast<std::uint32_t>(roster.cells.size()));
+        roster.cells.push_back(c);
+        roster.cells_x = {std::min(roster.cells_x.first, c.x), std::max(roster.cells_x.last, c.x + 1)};
+        roster.cells_y = {std::min(roster.cells_y.first, c.y), std::max(roster.cells_y.last, c.y + 1)};
     }
 }
 

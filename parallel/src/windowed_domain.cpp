@@ -1,6 +1,7 @@
 // One domain through a window: what it is sent, what it does, and whether that agrees with its neighbours.
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "fault.hpp"
 #include "windowed_engine.hpp"
@@ -8,8 +9,6 @@
 namespace carom {
 namespace {
 
-// So many cells of a halo are simulated to the window's end; the domain's own balls come there.
-constexpr std::int32_t kKept = 6;
 // A window aims at a few collisions a ball; more than so many, and it was too long by far.
 constexpr std::uint64_t kMostCollisionsOfBall = 32;
 
@@ -19,7 +18,7 @@ constexpr std::uint64_t kMostCollisionsOfBall = 32;
 /// needs.
 void WindowedEngine::pack(std::uint32_t from, const Region& region, std::int32_t halo,
                           std::vector<BallMessage>& message) const {
-    const DomainState& source = domains_[from];
+    const Roster& source = domains_[from].start;
     if (!region.x.meets(source.cells_x) || !region.y.meets(source.cells_y)) return;
     const auto pack_one = [&](std::uint32_t k) {
         const CellCoordinates& c = source.cells[k];
@@ -28,6 +27,7 @@ void WindowedEngine::pack(std::uint32_t from, const Region& region, std::int32_t
         ball.record = source.records[k];
         if (!source.extras.empty()) ball.extra = source.extras[k];
         ball.origin = {from, k};
+        if (!source.origins.empty()) ball.before = source.origins[k];
         ball.depth = region.depth(region.framed(c));
     };
     if (halo <= halo_)
@@ -39,57 +39,50 @@ void WindowedEngine::pack(std::uint32_t from, const Region& region, std::int32_t
 /// Adds what domain `self` holds and stays with it; the message gets what has left it for the halo.
 void WindowedEngine::add_residents(std::uint32_t self, const Region& region, Workshop& w) const {
     const DomainState& d = domains_[self];
-    w.residents.assign(d.records.size(), kNowhere);
+    w.residents.assign(d.start.places_end(), kNowhere);
     const BallExtra none;
-    for (std::uint32_t k = 0; k < d.records.size(); ++k) {
-        const CellCoordinates& c = d.cells[k];
-        const BallExtra& extra = d.extras.empty() ? none : d.extras[k];
+    for (std::uint32_t k = 0; k < d.start.records.size(); ++k) {
+        const CellCoordinates& c = d.start.cells[k];
+        const BallExtra& extra = d.start.extras.empty() ? none : d.start.extras[k];
         const std::int32_t depth = region.depth(region.framed(c));
         if (depth == 0) {
-            w.residents[k] = w.loop->size();
-            w.loop->add(d.records[k], &extra, true);
+            if (!d.start.places.empty()) w.residents[d.start.places[k]] = w.loop->size();
+            w.own.push_back(w.loop->size());
+            w.loop->add(d.start.records[k], &extra, true);
             w.origins.push_back({self, k});
         } else if (region.x.covers(c.x) && region.y.covers(c.y)) {
-            w.message.push_back({d.records[k], extra, {self, k}, depth});
+            w.message.push_back({d.start.records[k], extra, {self, k}, {}, depth});
         }
     }
     // Partners that stayed as well are told apart by where they were, and need not be looked for.
-    for (std::uint32_t k = 0; k < d.records.size(); ++k) {
-        const std::uint32_t partner = d.records[k].next.local;
-        if (w.residents[k] != kNowhere && partner < w.residents.size() && w.residents[partner] != kNowhere)
-            w.loop->suggest_partner(w.residents[k], w.residents[partner]);
+    for (std::uint32_t k = 0; k < d.start.places.size(); ++k) {
+        const std::uint32_t self_here = w.residents[d.start.places[k]];
+        const std::uint32_t partner = d.start.records[k].next.local;
+        if (self_here != kNowhere && partner < w.residents.size() && w.residents[partner] != kNowhere)
+            w.loop->suggest_partner(self_here, w.residents[partner]);
     }
 }
 
-/// Fills a loop from a message: first balls that are the domain's own, then copies of the others. With
-/// `ends_early` a copy is given up the sooner the deeper in the halo it starts: what it does later cannot
-/// reach the domain before the window ends.
-void WindowedEngine::unpack(const std::vector<BallMessage>& message, std::int32_t halo,
-                            const Time& window_end, bool ends_early, Workshop& w) const {
+/// When copies are given up, by their depth: the sooner the deeper in the halo they start, for what they do
+/// later cannot reach the domain before the window ends.
+std::vector<Time> WindowedEngine::ends_of_copies(std::int32_t halo, const Time& window_end) const {
     const Clock& clock = bodies_.physics.clock;
-    std::vector<Time> ends;  // of copies, by depth
     const double length = clock.difference(window_end, window_start_);
+    std::vector<Time> ends;
     for (std::int32_t depth = 0; depth <= halo; ++depth) {
         const double share =
-            depth <= kKept ? 1.0 : double(halo - depth + 1) / double(std::max(1, halo - kKept + 1));
-        ends.push_back(share < 1 && ends_early ? clock.after(window_start_, share * length) : kNever);
+            depth <= widest_kept_ ? 1.0 : double(halo - depth + 1) / double(halo - widest_kept_ + 1);
+        ends.push_back(share < 1 ? clock.after(window_start_, share * length) : kNever);
     }
-    for (const bool own : {true, false}) {
-        for (const BallMessage& ball : message) {
-            if ((ball.depth == 0) != own) continue;
-            w.loop->add(ball.record, &ball.extra, own,
-                        ends[std::min(static_cast<std::size_t>(ball.depth), ends.size() - 1)]);
-            w.origins.push_back(ball.origin);
-        }
-        if (own) w.own = w.loop->size();
-    }
+    return ends;
 }
 
-/// Fills a loop for a region, that of domain `self` or the whole plane where that is none.
+/// Fills a loop for a region, that of domain `self` or the whole plane where that is none. With `ends_early`
+/// copies are given up in time.
 void WindowedEngine::load(Workshop& w, std::size_t self, const Region& region, std::int32_t halo,
                           const Time& window_end, bool ends_early) const {
-    w.message.clear();
-    w.origins.clear();
+    const auto empty = [](auto&... tables) { (tables.clear(), ...); };
+    empty(w.message, w.own, w.copies, w.origins);
     w.loop->clear(region, window_start_);
     for (std::uint32_t d = 0; d < domains_.size(); ++d) {
         if (d == self)
@@ -97,18 +90,102 @@ void WindowedEngine::load(Workshop& w, std::size_t self, const Region& region, s
         else
             pack(d, region, self == kAll ? kEverything : halo, w.message);
     }
-    unpack(w.message, halo, window_end, ends_early, w);
+    const std::vector<Time> ends = ends_early ? ends_of_copies(halo, window_end) : std::vector{kNever};
+    for (const BallMessage& ball : w.message) {
+        (ball.depth == 0 ? w.own : w.copies).push_back(w.loop->size());
+        w.loop->add(ball.record, &ball.extra, ball.depth == 0,
+                    ends[std::min(static_cast<std::size_t>(ball.depth), ends.size() - 1)]);
+        w.origins.push_back(ball.origin);
+    }
+}
+
+/// Makes the loop that domain `self` has gone through the last window with ready for the next one: its balls
+/// are what they are, copies become what their owners say, some come and some go.
+void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, std::int32_t halo,
+                           const Time& window_end) const {
+    EventLoop& loop = *w.loop;
+    loop.go_on();
+    const auto end_of = [ends = ends_of_copies(halo, window_end)](std::int32_t depth) -> const Time& {
+        return ends[std::min(static_cast<std::size_t>(depth), ends.size() - 1)];
+    };
+    const auto here = [&w](const Origin& o) -> std::uint32_t& {
+        if (w.here.size() <= o.domain) w.here.resize(o.domain + 1);
+        std::vector<std::uint32_t>& places = w.here[o.domain];
+        if (places.size() <= o.index) places.resize(o.index + 1, kNowhere);
+        return places[o.index];
+    };
+    for (const std::uint32_t i : w.copies) here(w.origins[i]) = i;
+
+    w.message.clear();
+    for (std::uint32_t d = 0; d < domains_.size(); ++d)
+        if (d != self) pack(d, region, halo, w.message);
+    w.places.assign(w.message.size(), kNowhere);
+    for (std::size_t k = 0; k < w.message.size(); ++k) {
+        const BallMessage& ball = w.message[k];
+        std::uint32_t& place = here(ball.before);
+        if (place == kNowhere) continue;
+        loop.renew(place, ball.record, ball.extra, ball.depth == 0, end_of(ball.depth));
+        w.places[k] = std::exchange(place, kNowhere);
+    }
+    for (const std::uint32_t i : w.copies) {
+        std::uint32_t& place = here(w.origins[i]);
+        if (place == i) loop.remove(std::exchange(place, kNowhere));
+    }
+
+    // The domain's own balls, and those of them that have left its cells.
+    const DomainState& d = domains_[self];
+    w.own.clear();
+    w.copies.clear();
+    for (std::uint32_t k = 0; k < d.start.places.size(); ++k) {
+        const CellCoordinates& c = d.start.cells[k];
+        const std::uint32_t i = d.start.places[k];
+        const std::int32_t depth = region.depth(region.framed(c));
+        w.origins[i] = {static_cast<std::uint32_t>(self), k};
+        if (depth == 0) {
+            w.own.push_back(i);
+        } else if (region.x.covers(c.x) && region.y.covers(c.y)) {
+            loop.hand_over(i, end_of(depth));
+            w.copies.push_back(i);
+        } else {
+            loop.remove(i);
+        }
+    }
+    const auto left = static_cast<std::ptrdiff_t>(w.copies.size());
+    for (std::size_t k = 0; k < w.message.size(); ++k) {
+        const BallMessage& ball = w.message[k];
+        std::uint32_t i = w.places[k];
+        if (i == kNowhere) i = loop.enter(ball.record, ball.extra, ball.depth == 0, end_of(ball.depth));
+        if (w.origins.size() <= i) w.origins.resize(i + 1);
+        w.origins[i] = ball.origin;
+        (ball.depth == 0 ? w.own : w.copies).push_back(i);
+    }
+    std::ranges::inplace_merge(w.copies, w.copies.begin() + left, {},
+                               [&w](std::uint32_t i) { return w.origins[i]; });
 }
 
 void WindowedEngine::run(DomainState& d, const Stop& window_end) {
-    const Lease lease(*this);
-    Workshop& w = *lease;
+    if (!loops_stay_) {
+        const Lease lease(*this);
+        return run(d, window_end, *lease);
+    }
+    if (!d.workshop) d.workshop = make_workshop();
+    d.workshop->loop->listens = static_cast<bool>(listener_);
+    run(d, window_end, *d.workshop);
+    d.can_go_on = !d.failed;
+}
+
+void WindowedEngine::run(DomainState& d, const Stop& window_end, Workshop& w) {
+    const auto self = static_cast<std::size_t>(&d - domains_.data());
     w.loop->keeps_window = w.loop->keeps_anchors = true;
     w.loop->is_patient = false;  // all balls together will tell
     d.region = {bodies_.grid, d.x, d.y, d.halo};
-    load(w, static_cast<std::size_t>(&d - domains_.data()), d.region, d.halo, window_end.time, true);
+    if (d.can_go_on && w.loop->can_go_on(d.region, window_start_)) {
+        go_on(w, self, d.region, d.halo, window_end.time);
+    } else {
+        load(w, self, d.region, d.halo, window_end.time, true);
+        w.loop->start();
+    }
     w.loop->room = w.loop->room_for(kMostCollisionsOfBall);
-    w.loop->start();
     try {
         w.loop->advance_to(window_end.time, window_end.is_whole);
         d.failed = w.loop->has_failed() || w.loop->is_full();
@@ -129,26 +206,39 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     d.events = loop.events;
     d.copied_collisions =
         loop.collisions_of_all - std::min<std::uint64_t>(loop.collisions_of_all, d.notes.size());
-    d.results.assign(loop.records().begin(), loop.records().begin() + w.own);
-    index_results(d);
-    for (std::uint32_t i = 0; i < w.own; ++i) {
-        if (bodies_.needs_extras()) d.result_extras.push_back(loop.extra(i));
+    d.end.places = w.own;
+    for (const std::uint32_t i : w.own) {
+        d.end.records.push_back(loop.records()[i]);
+        if (bodies_.needs_extras()) d.end.extras.push_back(loop.extra(i));
         d.last_overwritten.push_back(loop.last_overwritten(i));
+        d.end.origins.push_back(w.origins[i]);
         domains_[w.origins[i].domain].histories[w.origins[i].index] = loop.history(i);
     }
-    d.copies.reserve(loop.size() - w.own);
-    for (std::uint32_t i = w.own; i < loop.size(); ++i) {
-        const CellCoordinates c = domains_[w.origins[i].domain].cells[w.origins[i].index];
+    index(d, d.end);
+    d.copies.reserve(w.copies.size());
+    std::vector<std::uint32_t>& copy_of = w.places;
+    copy_of.resize(loop.size());
+    for (const std::uint32_t i : w.copies) {
+        const CellCoordinates c = domains_[w.origins[i].domain].start.cells[w.origins[i].index];
+        copy_of[i] = static_cast<std::uint32_t>(d.copies.size());
         d.copies.push_back(
             {w.origins[i], loop.history(i), d.region.mark(d.region.framed(c)), loop.is_lost(i, window_end)});
     }
     for (const Visit& v : loop.visits_of_copies)
-        d.copy_visits.push_back({v.ball - w.own, d.region.mark(v.cell)});
-    // Other domains reach no further into this one than their halo, be it widened after this run.
-    const std::int32_t reach = widest(halo_);
-    for (const Visit& v : loop.visits)
-        if (!d.region.x.is_deep_inside(v.cell.x, reach) || !d.region.y.is_deep_inside(v.cell.y, reach))
-            d.visits.push_back({w.origins[v.ball], fold_periodic(bodies_.grid, v.cell)});
+        d.copy_visits.push_back({copy_of[v.ball], d.region.mark(v.cell)});
+    std::swap(d.visits, loop.visits);
+    for (const Visit& v : d.visits)
+        if (!d.region.x.is_deep_inside(v.cell.x, halo_) || !d.region.y.is_deep_inside(v.cell.y, halo_))
+            d.visits_near_border.push_back({w.origins[v.ball], fold_periodic(bodies_.grid, v.cell)});
+}
+
+/// The visits of a domain's own balls, for another one whose halo has been widened.
+std::vector<OwnVisit> WindowedEngine::all_visits(const DomainState& d) const {
+    std::vector<Origin> origins(d.end.places_end());
+    for (std::size_t k = 0; k < d.end.places.size(); ++k) origins[d.end.places[k]] = d.end.origins[k];
+    std::vector<OwnVisit> all;
+    for (const Visit& v : d.visits) all.push_back({origins[v.ball], fold_periodic(bodies_.grid, v.cell)});
+    return all;
 }
 
 /// Whether every foreign ball that could have met one of the domain's own did there what it did at its owner.
@@ -166,7 +256,8 @@ bool WindowedEngine::agrees(const DomainState& d) const {
         if (!is_right[v.copy] && d.touched[static_cast<std::size_t>(v.mark)]) return false;
     for (const DomainState& other : domains_) {
         if (&other == &d || !d.region.meets(other.region)) continue;
-        for (const OwnVisit& v : other.visits) {
+        const std::vector<OwnVisit> widely = d.halo > halo_ ? all_visits(other) : std::vector<OwnVisit>{};
+        for (const OwnVisit& v : d.halo > halo_ ? widely : other.visits_near_border) {
             const std::int32_t mark = d.region.mark(d.region.framed(v.cell));
             if (mark < 0 || !d.touched[static_cast<std::size_t>(mark)]) continue;
             const auto copy = std::ranges::lower_bound(d.copies, v.origin, {}, &CopyOutcome::origin);

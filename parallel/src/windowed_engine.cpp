@@ -8,7 +8,9 @@
 namespace carom {
 namespace {
 
-constexpr std::int32_t kHalo = 7;  // cells
+// Cells. What a window costs beside its events is less where loops stay, so that windows may be shorter.
+constexpr std::int32_t kHalo = 7;
+constexpr std::int32_t kHaloWhereLoopsStay = 6;
 // The first window's share of an epoch; the next ones follow the collisions that it had.
 constexpr double kFirstWindow = 1.0 / 256;
 // The least window's share of an epoch: what cannot be cut finer, a row of touching balls that is hit at one
@@ -34,7 +36,9 @@ WindowedEngine::WindowedEngine(const Bodies& bodies, const EngineStart& start, c
     : Engine(bodies, start),
       executor_(executor),
       wanted_domains_(domains),
-      halo_(halo > 0 ? halo : kHalo),
+      loops_stay_(domains <= executor.threads()),
+      widest_kept_((loops_stay_ ? kHaloWhereLoopsStay : kHalo) - 1),
+      halo_(halo > 0 ? halo : widest_kept_ + 1),
       now_(start.now),
       window_start_(start.now),
       window_length_(bodies.physics.clock.epoch_length() * kFirstWindow),
@@ -58,10 +62,17 @@ bool WindowedEngine::try_window(const Stop& window_end) {
         if (disagreeing == 0) return true;
         counts_.window_retries += disagreeing;
         disagreeing_ += disagreeing;
-        if (round == kMostRepairs || 4 * disagreeing > 3 * domains_.size() + 4) return false;
-        if (std::ranges::any_of(domains_, &DomainState::is_full)) return false;
-        for (std::size_t d = 0; d < domains_.size(); ++d)
-            if (runs[d]) domains_[d].halo = widened(domains_[d].halo);
+        const bool gives_up = round == kMostRepairs || 4 * disagreeing > 3 * domains_.size() + 4 ||
+                              std::ranges::any_of(domains_, &DomainState::is_full);
+        if (gives_up) {
+            forget_loops();
+            return false;
+        }
+        for (std::size_t d = 0; d < domains_.size(); ++d) {
+            if (!runs[d]) continue;
+            domains_[d].halo = widened(domains_[d].halo);
+            domains_[d].can_go_on = false;
+        }
     }
 }
 
@@ -76,11 +87,12 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
     loop.room = may_end_early ? loop.room_for(kMostCollisionsTogether) : EventLoop::kEndless;
     loop.start();
     loop.advance_to(window_end.time, window_end.is_whole);
+    forget_loops();
     for (DomainState& d : domains_) d.clear_outcome();
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
         DomainState& d = domains_[w.origins[i].domain];
-        d.results.push_back(loop.records()[i]);
-        if (bodies_.needs_extras()) d.result_extras.push_back(loop.extra(i));
+        d.end.records.push_back(loop.records()[i]);
+        if (bodies_.needs_extras()) d.end.extras.push_back(loop.extra(i));
         // The chain of overwritten anchors, the oldest first.
         std::vector<std::uint32_t> chain;
         for (std::uint32_t k = loop.last_overwritten(i); k != kNowhere; k = loop.overwritten[k].previous)
@@ -89,22 +101,36 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
         for (; !chain.empty(); chain.pop_back()) {
             OverwrittenAnchor o = loop.overwritten[chain.back()];
             o.previous = last;
-            o.ball = static_cast<std::uint32_t>(d.results.size() - 1);
+            o.ball = static_cast<std::uint32_t>(d.end.records.size() - 1);  // which is its place as well
             last = static_cast<std::uint32_t>(d.overwritten.size());
             d.overwritten.push_back(o);
         }
         d.last_overwritten.push_back(last);
+        d.end.places.push_back(static_cast<std::uint32_t>(d.end.places.size()));
     }
-    for (DomainState& d : domains_) index_results(d);
+    for (DomainState& d : domains_) index(d, d.end);
     std::swap(domains_.front().notes, loop.notes);
     std::swap(domains_.front().collisions, loop.collisions);
     domains_.front().events = loop.events;
     return loop.is_full() ? Stop{loop.time_now()} : window_end;
 }
 
+/// What has become of the balls since, the domains' loops do not know.
+void WindowedEngine::forget_loops() {
+    for (DomainState& d : domains_) d.can_go_on = false;
+}
+
+std::unique_ptr<Workshop> WindowedEngine::make_workshop() const {
+    auto workshop = std::make_unique<Workshop>();
+    workshop->loop = make_event_loop(bodies_);
+    workshop->loop->keeps_notes = true;
+    return workshop;
+}
+
 /// Finds every ball's next event from nothing, after a renewal of the field where asked.
 void WindowedEngine::predict_anew(bool renews_field) {
     constexpr std::int32_t kSight = 2;  // cells
+    forget_loops();
     for_each_domain([&](std::size_t k) {
         DomainState& d = domains_[k];
         const Lease lease(*this);
@@ -115,26 +141,29 @@ void WindowedEngine::predict_anew(bool renews_field) {
         w.loop->predict_all(nullptr);
         d.clear_outcome();
         d.events = w.loop->events;
-        d.results.assign(w.loop->records().begin(), w.loop->records().begin() + w.own);
-        for (std::uint32_t i = 0; bodies_.needs_extras() && i < w.own; ++i)
-            d.result_extras.push_back(w.loop->extra(i));
-        index_results(d);
+        d.end.places = w.own;
+        for (const std::uint32_t i : w.own) {
+            d.end.records.push_back(w.loop->records()[i]);
+            if (bodies_.needs_extras()) d.end.extras.push_back(w.loop->extra(i));
+        }
+        index(d, d.end);
     });
     in_window_ = true;
     window_end_ = {window_start_};
     commit();
 }
 
-/// The results become the records.
+/// The end of the window becomes the start of the next one.
 void WindowedEngine::commit() {
     if (!in_window_) return;
-    for_each_domain([&](std::size_t k) { take_results(domains_[k]); });
     std::size_t most = 0;
     was_quiet_ = std::ranges::all_of(domains_, [](const DomainState& d) { return d.events == 0; });
-    for (const DomainState& d : domains_) {
+    for (DomainState& d : domains_) {
+        std::swap(d.start, d.end);
+        d.histories.resize(d.start.records.size());
         counts_.events += d.events;
         counts_.copied_collisions += d.copied_collisions;
-        most = std::max(most, d.records.size());
+        most = std::max(most, d.start.records.size());
     }
     window_start_ = window_end_.time;
     in_window_ = false;
@@ -148,12 +177,12 @@ void WindowedEngine::skip_quiet_epochs(const Time& until) {
     const Clock& clock = bodies_.physics.clock;
     Time first = until;
     for (const DomainState& d : domains_)
-        for (const BallRecord& r : d.records)
+        for (const BallRecord& r : d.start.records)
             first = std::min({first, r.next.time, clock.after({window_start_.epoch, 0}, r.crossing_time)});
     if (first.epoch <= window_start_.epoch) return;
     const double passed = clock.epoch_length() * (double(first.epoch) - double(window_start_.epoch));
     for (DomainState& d : domains_)
-        for (BallRecord& r : d.records) r.crossing_time -= passed;
+        for (BallRecord& r : d.start.records) r.crossing_time -= passed;
     window_start_ = {first.epoch, 0};
 }
 

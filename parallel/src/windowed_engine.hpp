@@ -24,11 +24,6 @@ inline constexpr int kMostRepairs = 2;
 [[nodiscard]] constexpr std::int32_t widened(std::int32_t halo) {
     return halo + halo / 2 + 1;
 }
-/// The widest that a domain may come to.
-[[nodiscard]] constexpr std::int32_t widest(std::int32_t halo) {
-    for (int repair = 0; repair < kMostRepairs; ++repair) halo = widened(halo);
-    return halo;
-}
 
 class WindowedEngine final : public Engine {
  public:
@@ -52,15 +47,7 @@ class WindowedEngine final : public Engine {
     }
 
  private:
-    // What a domain works with while it runs; as many as there are threads, used again and again.
-    struct Workshop {
-        std::unique_ptr<EventLoop> loop;
-        std::vector<Origin> origins;  // one a ball of the loop, the domain's own first
-        std::uint32_t own = 0;        // so many are the domain's own
-        std::vector<BallMessage> message;
-        std::vector<std::uint32_t> residents;  // where the domain's records are in the loop
-        std::thread::id thread;                // that used it last
-    };
+    [[nodiscard]] std::unique_ptr<Workshop> make_workshop() const;
     class Lease;
 
     template <class F>
@@ -80,20 +67,22 @@ class WindowedEngine final : public Engine {
     using MakeDomain = std::function<void(std::span<const BallInCell>, Span x, Span y)>;
     void cut(std::span<BallInCell> balls, Span x, Span y, int parts, const MakeDomain& make_domain) const;
     void split_anew();
-    void index_results(DomainState& d) const;
-    void take_results(DomainState& d) const;
-    void index_records(DomainState& d) const;
+    void index(const DomainState& d, Roster& roster) const;
     void add_residents(std::uint32_t self, const Region& region, Workshop& w) const;
     void pack(std::uint32_t from, const Region& region, std::int32_t halo,
               std::vector<BallMessage>& message) const;
-    void unpack(const std::vector<BallMessage>& message, std::int32_t halo, const Time& window_end,
-                bool ends_early, Workshop& w) const;
+    [[nodiscard]] std::vector<Time> ends_of_copies(std::int32_t halo, const Time& window_end) const;
+    void go_on(Workshop& w, std::size_t self, const Region& region, std::int32_t halo,
+               const Time& window_end) const;
+    void forget_loops();
     void load(Workshop& w, std::size_t self, const Region& region, std::int32_t halo, const Time& window_end,
               bool ends_early) const;
     static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
     static constexpr std::int32_t kEverything = std::numeric_limits<std::int32_t>::max();  // as a halo
     void run(DomainState& d, const Stop& window_end);
+    void run(DomainState& d, const Stop& window_end, Workshop& w);
     void keep_outcome(DomainState& d, Workshop& w, const Time& window_end);
+    [[nodiscard]] std::vector<OwnVisit> all_visits(const DomainState& d) const;
     [[nodiscard]] bool agrees(const DomainState& d) const;
     [[nodiscard]] bool try_window(const Stop& window_end);
     [[nodiscard]] Stop run_together(const Stop& window_end, bool may_end_early);
@@ -108,13 +97,7 @@ class WindowedEngine final : public Engine {
         const Collision* collision;
     };
     /// A domain's balls as they were last advanced.
-    struct Held {
-        const std::vector<BallRecord>& records;
-        const std::vector<BallExtra>& extras;
-    };
-    [[nodiscard]] Held held(const DomainState& d) const {
-        return in_window_ ? Held{d.results, d.result_extras} : Held{d.records, d.extras};
-    }
+    [[nodiscard]] const Roster& held(const DomainState& d) const { return in_window_ ? d.end : d.start; }
     void order_simultaneous(std::span<Told> notes) const;
     /// A ball as it was left by its last event until some time.
     struct Past {
@@ -123,13 +106,17 @@ class WindowedEngine final : public Engine {
         bool is_of_window;  ///< whether that event lies within the window
     };
     [[nodiscard]] std::vector<std::uint32_t> latest_until(const DomainState& d, const Time& t) const;
-    [[nodiscard]] Past past_of(const DomainState& d, std::size_t i, std::uint32_t latest,
-                               const Time& t) const;
+    [[nodiscard]] Past past_of(const DomainState& d, std::size_t i,
+                               const std::vector<std::uint32_t>& latest_of, const Time& t) const;
     void tune(double length, bool agreed);
 
     mutable std::atomic<std::chrono::steady_clock::rep> working_time_ = 0;
     const Executor& executor_;
     int wanted_domains_;
+    // Where each thread has one domain its loop stays as it is from window to window. With more of them what
+    // a thread goes through would be in no cache.
+    bool loops_stay_;
+    std::int32_t widest_kept_;  // copies of so many cells of a halo are simulated to the window's end
     std::int32_t halo_;
     mutable std::mutex mutex_;
     mutable std::vector<std::unique_ptr<Workshop>> idle_;
@@ -166,11 +153,7 @@ class WindowedEngine::Lease {
                 engine.idle_.erase(found);
             }
         }
-        if (!workshop_) {
-            workshop_ = std::make_unique<Workshop>();
-            workshop_->loop = make_event_loop(engine.bodies_);
-            workshop_->loop->keeps_notes = true;
-        }
+        if (!workshop_) workshop_ = engine.make_workshop();
         workshop_->loop->listens = static_cast<bool>(engine.listener_);
         workshop_->thread = std::this_thread::get_id();
     }

@@ -87,6 +87,7 @@ bool WindowedEngine::start_anew(const Time& t, std::span<NewStart> starts) {
     constexpr int kStopsAfterEdit = 4;
     rewind_to_now();
     commit();
+    forget_loops();
     window_start_ = t;
     cuts_left_ = kStopsAfterEdit;
     std::vector<std::uint32_t> start_of(bodies_.count, kNowhere);
@@ -94,38 +95,39 @@ bool WindowedEngine::start_anew(const Time& t, std::span<NewStart> starts) {
     for_each_domain([&](std::size_t k) {
         DomainState& d = domains_[k];
         bool has_some = false;
-        for (std::size_t i = 0; i < d.records.size(); ++i) {
-            BallRecord& r = d.records[i];
+        for (std::size_t i = 0; i < d.start.records.size(); ++i) {
+            BallRecord& r = d.start.records[i];
             if (start_of[r.id] == kNowhere) continue;
             has_some = true;
             NewStart& start = starts[start_of[r.id]];
             BallExtra ignored;
-            Vec2& acceleration = (d.extras.empty() ? ignored : d.extras[i]).acceleration;
+            Vec2& acceleration = (d.start.extras.empty() ? ignored : d.start.extras[i]).acceleration;
             carom::start_anew(bodies_, r.anchor, r.periods, acceleration, t, start);
             ++r.anchor.stamp;
             r.next = {.time = kUnknown};  // the domains find it when they have their copies
-            d.cells[i] = fold_periodic(bodies_.grid, r.anchor.cell);
             if (bodies_.accelerates_each())
                 acceleration = bodies_.acceleration_at(r.id, {r.anchor.x, r.anchor.y});
             start.state = state_at(bodies_, r.anchor, r.periods, acceleration, t);
         }
-        if (has_some) index_records(d);
+        if (has_some) index(d, d.start);
     });
     return true;
 }
 
-/// Each ball's last anchor until `t` among the overwritten ones. One pass, for a ball's chain costs a miss of
-/// the cache for every link.
+/// Each ball's last anchor until `t` among the overwritten ones, by the ball's place in the loop. One pass,
+/// for a ball's chain costs a miss of the cache for every link.
 std::vector<std::uint32_t> WindowedEngine::latest_until(const DomainState& d, const Time& t) const {
-    std::vector<std::uint32_t> latest(held(d).records.size(), kNowhere);
+    std::vector<std::uint32_t> latest(held(d).places_end(), kNowhere);
     for (std::uint32_t o = 0; in_window_ && o < d.overwritten.size(); ++o)
         if (d.overwritten[o].time <= t) latest[d.overwritten[o].ball] = o;
     return latest;
 }
 
-WindowedEngine::Past WindowedEngine::past_of(const DomainState& d, std::size_t i, std::uint32_t latest,
+WindowedEngine::Past WindowedEngine::past_of(const DomainState& d, std::size_t i,
+                                             const std::vector<std::uint32_t>& latest_of,
                                              const Time& t) const {
     const BallRecord& r = held(d).records[i];
+    const std::uint32_t latest = in_window_ ? latest_of[d.end.places[i]] : kNowhere;
     if (latest == kNowhere || r.anchor.time <= t)
         return {r.anchor, r.periods, in_window_ && d.last_overwritten[i] != kNowhere};
     const OverwrittenAnchor& o = d.overwritten[latest];
@@ -141,10 +143,11 @@ void WindowedEngine::read_domains(std::span<std::uint32_t> domains) const {
 void WindowedEngine::visit_states(const Time& t, const VisitState& visit) const {
     for_each_domain([&](std::size_t k) {
         const DomainState& d = domains_[k];
-        const auto& [records, extras] = held(d);
+        const auto& records = held(d).records;
+        const auto& extras = held(d).extras;
         const std::vector<std::uint32_t> latest = latest_until(d, t);
         for (std::size_t i = 0; i < records.size(); ++i) {
-            const Past past = past_of(d, i, latest[i], t);
+            const Past past = past_of(d, i, latest, t);
             visit(records[i].id, state_at(bodies_, past.anchor, past.periods,
                                           extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, t));
         }
@@ -154,7 +157,8 @@ void WindowedEngine::visit_states(const Time& t, const VisitState& visit) const 
 void WindowedEngine::visit_flights(const Stop& from, const Time& to, const VisitFlights& visit) const {
     for_each_domain([&](std::size_t k) {
         const DomainState& d = domains_[k];
-        const auto& [records, extras] = held(d);
+        const auto& records = held(d).records;
+        const auto& extras = held(d).extras;
         FlightList flights(bodies_);
         for (std::size_t i = 0; i < records.size(); ++i)
             visit(records[i].id,
@@ -168,18 +172,19 @@ void WindowedEngine::visit_flights(const Stop& from, const Time& to, const Visit
 void WindowedEngine::save(const Time& t, Snapshot& snapshot) const {
     std::vector<Time> before_window(in_window_ && bodies_.physics.contact_time > 0 ? bodies_.count : 0);
     for (const DomainState& d : domains_)
-        for (std::size_t k = 0; !before_window.empty() && k < d.records.size(); ++k)
-            before_window[d.records[k].id] = d.extras[k].last_collision;
+        for (std::size_t k = 0; !before_window.empty() && k < d.start.records.size(); ++k)
+            before_window[d.start.records[k].id] = d.start.extras[k].last_collision;
     // The window at hand is gone through anew from there; what it took is counted all the same.
     for (const DomainState& d : domains_)
         if (in_window_) snapshot.counts.events += d.events;
     BallSaver saver(bodies_, snapshot);
     for_each_domain([&](std::size_t k) {
         const DomainState& d = domains_[k];
-        const auto& [records, extras] = held(d);
+        const auto& records = held(d).records;
+        const auto& extras = held(d).extras;
         const std::vector<std::uint32_t> latest = latest_until(d, t);
         for (std::size_t i = 0; i < records.size(); ++i) {
-            const Past past = past_of(d, i, latest[i], t);
+            const Past past = past_of(d, i, latest, t);
             BallExtra extra = extras.empty() ? BallExtra{} : extras[i];
             if (!before_window.empty())
                 extra.last_collision = past.is_of_window ? past.anchor.time : before_window[records[i].id];
@@ -199,7 +204,8 @@ void WindowedEngine::audit(std::vector<Violation>& found) const {
     loop->clear({bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0},
                 in_window_ ? window_end_.time : window_start_);
     for (const DomainState& d : domains_) {
-        const auto& [records, extras] = held(d);
+        const auto& records = held(d).records;
+        const auto& extras = held(d).extras;
         for (std::size_t i = 0; i < records.size(); ++i)
             loop->add(records[i], extras.empty() ? nullptr : &extras[i], true);
     }
