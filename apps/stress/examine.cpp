@@ -126,6 +126,8 @@ WorldOptions Examination::drawn_options() {
         if (!b.is_static) diameter = std::max(diameter, 2 * b.radius);
     if (draw_.one_in(2)) options.cell_size = diameter * draw_.uniform(1.02, 4);
     options.domains = 1 + static_cast<int>(draw_.below(10));
+    // With a thread for each domain their loops stay from window to window.
+    if (draw_.one_in(3)) options.domains = options.threads = std::max(2, trial_.threads);
     options.halo = static_cast<int>(draw_.below(7));
     return options;
 }

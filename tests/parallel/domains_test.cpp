@@ -145,6 +145,11 @@ TEST(QuietDomains, SkipWhatIsEmpty) {
     }
 }
 
+/// Where each domain has a thread its loop stays from window to window, else it is filled anew.
+std::vector<int> few_and_enough(int domains) {
+    return domains > 2 ? std::vector{2, domains} : std::vector{1, domains};
+}
+
 class Domains : public testing::TestWithParam<NamedScene> {};
 
 TEST_P(Domains, GiveTheSerialResult) {
@@ -152,15 +157,18 @@ TEST_P(Domains, GiveTheSerialResult) {
     const Outcome serial = run(GetParam().scene, {.threads = 1, .domains = 1}, kEnd);
     ASSERT_GT(serial.collisions.size(), 50U);
     for (const int domains : {2, 3, 5, 8, 16}) {
-        SCOPED_TRACE(std::to_string(domains) + " domains");
-        expect_equal(run(GetParam().scene, {.threads = 2, .domains = domains}, kEnd), serial);
+        for (const int threads : few_and_enough(domains)) {
+            SCOPED_TRACE(std::to_string(domains) + " domains, threads " + std::to_string(threads));
+            expect_equal(run(GetParam().scene, {.threads = threads, .domains = domains}, kEnd), serial);
+        }
     }
 }
 
 TEST_P(Domains, GiveTheSerialResultInFrames) {
     constexpr double kEnd = 2;
     const Outcome serial = run(GetParam().scene, {.threads = 1, .domains = 1}, kEnd);
-    expect_equal(run(GetParam().scene, {.threads = 2, .domains = 6}, kEnd, 1.0 / 60), serial);
+    for (const int threads : few_and_enough(6))
+        expect_equal(run(GetParam().scene, {.threads = threads, .domains = 6}, kEnd, 1.0 / 60), serial);
 }
 
 /// With a halo of one or two cells what happens beyond it reaches the domain at once: the comparison must see
@@ -172,11 +180,13 @@ TEST_P(Domains, MendAHaloThatIsTooThin) {
     for (const int halo : {1, 2, 3}) {
         SCOPED_TRACE("halo of " + std::to_string(halo));
         for (const int domains : {2, 3, 9}) {
-            SCOPED_TRACE(std::to_string(domains) + " domains");
-            const Outcome thin =
-                run(GetParam().scene, {.threads = 2, .domains = domains, .halo = halo}, kEnd);
-            expect_equal(thin, serial);
-            retries += thin.counts.window_retries;
+            for (const int threads : few_and_enough(domains)) {
+                SCOPED_TRACE(std::to_string(domains) + " domains, threads " + std::to_string(threads));
+                const Outcome thin =
+                    run(GetParam().scene, {.threads = threads, .domains = domains, .halo = halo}, kEnd);
+                expect_equal(thin, serial);
+                retries += thin.counts.window_retries;
+            }
         }
     }
     EXPECT_GT(retries, 0U);
@@ -199,9 +209,13 @@ TEST_P(SimultaneousInDomains, GiveTheSerialResult) {
     ASSERT_GT(serial.collisions.size(), 50U);
     for (const int domains : {2, 3, 7}) {
         for (const int halo : {0, 1, 3}) {
-            SCOPED_TRACE(std::to_string(domains) + " domains, halo of " + std::to_string(halo));
-            expect_equal(run(GetParam().scene, {.threads = 2, .domains = domains, .halo = halo}, kEnd),
-                         serial);
+            for (const int threads : few_and_enough(domains)) {
+                SCOPED_TRACE(std::to_string(domains) + " domains, halo of " + std::to_string(halo) +
+                             ", threads " + std::to_string(threads));
+                expect_equal(
+                    run(GetParam().scene, {.threads = threads, .domains = domains, .halo = halo}, kEnd),
+                    serial);
+            }
         }
     }
 }
