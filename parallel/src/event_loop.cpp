@@ -148,7 +148,7 @@ std::uint32_t EventLoopOf<A>::enter(const BallRecord& record, const BallExtra& e
     std::uint32_t i = size();
     if (free_.empty()) {
         add(record, &extra, is_owned, end);
-        queue_.grow(size());
+        queue_.append();
     } else {
         i = free_.back();
         free_.pop_back();

@@ -25,6 +25,7 @@ class Checked {
         keys_.assign(count, kInfinity);
         order_.clear();
     }
+    void append() { keys_.push_back(kInfinity); }
     void remember(std::uint32_t id, double key) {
         if (keys_[id] < kInfinity) order_.erase({keys_[id], id});
         if (key < kInfinity) order_.insert({key, id});
@@ -146,6 +147,23 @@ TEST(EventQueueAgainstASet, UsedAgainWithAnotherCount) {
         for (int k = 0; k < 2000; ++k) {
             ASSERT_NO_FATAL_FAILURE(q.check());
             q.set(q.first(), q.least() + random.uniform(0, 0.01));
+        }
+    }
+}
+
+TEST(EventQueueAgainstASet, GrowsWhileItRuns) {
+    Checked q(5);
+    Random random(13);
+    for (std::uint32_t id = 0; id < 5; ++id) q.put(id, random.uniform(0, 1));
+    q.queue.rebuild();
+    for (std::uint32_t count = 5; count < 2000; ++count) {
+        q.queue.append();
+        q.append();
+        ASSERT_NO_FATAL_FAILURE(q.check());
+        q.set(count, q.least() + random.uniform(0, 1));
+        for (int k = 0; k < 3; ++k) {
+            ASSERT_NO_FATAL_FAILURE(q.check());
+            q.set(q.first(), q.least() + random.uniform(0, 1));
         }
     }
 }

@@ -23,6 +23,7 @@ TEST(Snapshot, BeginsWithNothing) {
     EXPECT_EQ(sum.high, 0);
     EXPECT_EQ(sum.low, 0U);
     EXPECT_FALSE(sum.is_lost);
+    EXPECT_EQ(SavedContact(), (SavedContact{0, 0, 0, 0}));
     const Snapshot snapshot;
     EXPECT_EQ(snapshot.scene_hash, 0U);
     EXPECT_EQ(snapshot.time, 0);

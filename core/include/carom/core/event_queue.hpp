@@ -25,10 +25,8 @@ class EventQueue {
     /// `count` entries, all at infinity, each to be put() before rebuild().
     void reset(std::size_t count) { slots_.assign(std::max<std::size_t>(count, 1), Slot{}); }
 
-    /// `count` entries at least, the new ones at infinity.
-    void grow(std::size_t count) {
-        if (count > slots_.size()) slots_.resize(count);
-    }
+    /// One entry more, at infinity.
+    void append() { slots_.emplace_back(); }
 
     /// Changes one key of many; call rebuild() before the next front(). Keys are no NaN.
     void put(std::uint32_t id, double key) { slots_[id] = {key, slots_[id].turn + 1}; }
