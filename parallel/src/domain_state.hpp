@@ -114,10 +114,9 @@ struct DomainState {
     std::unique_ptr<Workshop> workshop;
     bool can_go_on = false;  ///< the workshop holds what the last window came to
 
-    /// Forgets what the last window came to.
+    /// Forgets what the last window came to, but for `end`.
     void clear_outcome() {
         const auto empty = [](auto&... tables) { (tables.clear(), ...); };
-        end.clear();
         empty(overwritten, last_overwritten, notes, collisions, copies, copy_visits, visits,
               visits_near_border);
         told = 0;

@@ -206,15 +206,16 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     d.events = loop.events;
     d.copied_collisions =
         loop.collisions_of_all - std::min<std::uint64_t>(loop.collisions_of_all, d.notes.size());
-    d.end.places = w.own;
-    for (const std::uint32_t i : w.own) {
-        d.end.records.push_back(loop.records()[i]);
-        if (bodies_.needs_extras()) d.end.extras.push_back(loop.extra(i));
-        d.last_overwritten.push_back(loop.last_overwritten(i));
-        d.end.origins.push_back(w.origins[i]);
-        domains_[w.origins[i].domain].histories[w.origins[i].index] = loop.history(i);
+    keep_own(d, w);
+    d.last_overwritten.resize(w.own.size());
+    d.end.origins.resize(w.own.size());
+    for (std::size_t k = 0; k < w.own.size(); ++k) {
+        const std::uint32_t i = w.own[k];
+        const Origin& origin = w.origins[i];
+        d.last_overwritten[k] = loop.last_overwritten(i);
+        d.end.origins[k] = origin;
+        domains_[origin.domain].histories[origin.index] = loop.history(i);
     }
-    index(d, d.end);
     d.copies.reserve(w.copies.size());
     std::vector<std::uint32_t>& copy_of = w.places;
     copy_of.resize(loop.size());
@@ -230,6 +231,18 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     for (const Visit& v : d.visits)
         if (!d.region.x.is_deep_inside(v.cell.x, halo_) || !d.region.y.is_deep_inside(v.cell.y, halo_))
             d.visits_near_border.push_back({w.origins[v.ball], fold_periodic(bodies_.grid, v.cell)});
+}
+
+/// The domain's own balls as they are in a loop. All is written over, for it is as long as the time before.
+void WindowedEngine::keep_own(DomainState& d, const Workshop& w) const {
+    d.end.places = w.own;
+    d.end.origins.clear();
+    d.end.records.resize(w.own.size());
+    for (std::size_t k = 0; k < w.own.size(); ++k) d.end.records[k] = w.loop->records()[w.own[k]];
+    d.end.extras.clear();
+    if (bodies_.needs_extras())
+        for (const std::uint32_t i : w.own) d.end.extras.push_back(w.loop->extra(i));
+    index(d, d.end);
 }
 
 /// The visits of a domain's own balls, for another one whose halo has been widened.

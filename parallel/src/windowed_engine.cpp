@@ -88,7 +88,10 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
     loop.start();
     loop.advance_to(window_end.time, window_end.is_whole);
     forget_loops();
-    for (DomainState& d : domains_) d.clear_outcome();
+    for (DomainState& d : domains_) {
+        d.clear_outcome();
+        d.end.clear();
+    }
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
         DomainState& d = domains_[w.origins[i].domain];
         d.end.records.push_back(loop.records()[i]);
@@ -141,12 +144,7 @@ void WindowedEngine::predict_anew(bool renews_field) {
         w.loop->predict_all(nullptr);
         d.clear_outcome();
         d.events = w.loop->events;
-        d.end.places = w.own;
-        for (const std::uint32_t i : w.own) {
-            d.end.records.push_back(w.loop->records()[i]);
-            if (bodies_.needs_extras()) d.end.extras.push_back(w.loop->extra(i));
-        }
-        index(d, d.end);
+        keep_own(d, w);
     });
     in_window_ = true;
     window_end_ = {window_start_};

@@ -81,6 +81,7 @@ class WindowedEngine final : public Engine {
     static constexpr std::int32_t kEverything = std::numeric_limits<std::int32_t>::max();  // as a halo
     void run(DomainState& d, const Stop& window_end);
     void run(DomainState& d, const Stop& window_end, Workshop& w);
+    void keep_own(DomainState& d, const Workshop& w) const;
     void keep_outcome(DomainState& d, Workshop& w, const Time& window_end);
     [[nodiscard]] std::vector<OwnVisit> all_visits(const DomainState& d) const;
     [[nodiscard]] bool agrees(const DomainState& d) const;
