@@ -60,13 +60,21 @@ pid_t Folder::start_words(std::vector<std::string> words) const {
     pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
-    const std::string out = path("out"), err = path("err");
+    // Before the child is there, which may be killed before it does anything.
+    const auto opened = [this](const char* name) {
+        const int file = open(path(name).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+        EXPECT_GE(file, 0) << name;
+        return file;
+    };
+    const int out_file = opened("out");
+    const int err_file = opened("err");
     const pid_t process = fork();
-    if (process != 0) return process;
+    if (process != 0) {
+        close(out_file);
+        close(err_file);
+        return process;
+    }
     // In the child: nothing but system calls.
-    const int out_file = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    const int err_file = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    if (out_file < 0 || err_file < 0) _exit(127);
     if (dup2(out_file, STDOUT_FILENO) < 0 || dup2(err_file, STDERR_FILENO) < 0 || chdir(folder_.c_str()) != 0)
         _exit(127);
     execv(pointers[0], pointers.data());
