@@ -136,6 +136,7 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
     const DomainState& d = domains_[self];
     w.own.clear();
     w.copies.clear();
+    std::vector<std::uint32_t> left;
     for (std::uint32_t k = 0; k < d.start.places.size(); ++k) {
         const CellCoordinates& c = d.start.cells[k];
         const std::uint32_t i = d.start.places[k];
@@ -145,12 +146,11 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
             w.own.push_back(i);
         } else if (region.x.covers(c.x) && region.y.covers(c.y)) {
             loop.hand_over(i, end_of(depth));
-            w.copies.push_back(i);
+            left.push_back(i);
         } else {
             loop.remove(i);
         }
     }
-    const auto left = static_cast<std::ptrdiff_t>(w.copies.size());
     for (std::size_t k = 0; k < w.message.size(); ++k) {
         const BallMessage& ball = w.message[k];
         std::uint32_t i = w.places[k];
@@ -159,8 +159,9 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
         w.origins[i] = ball.origin;
         (ball.depth == 0 ? w.own : w.copies).push_back(i);
     }
-    std::ranges::inplace_merge(w.copies, w.copies.begin() + left, {},
-                               [&w](std::uint32_t i) { return w.origins[i]; });
+    const auto after = std::ranges::partition_point(
+        w.copies, [&w, self](std::uint32_t i) { return w.origins[i].domain < self; });
+    w.copies.insert(after, left.begin(), left.end());
 }
 
 void WindowedEngine::run(DomainState& d, const Stop& window_end) {
@@ -250,6 +251,7 @@ std::vector<OwnVisit> WindowedEngine::all_visits(const DomainState& d) const {
     std::vector<Origin> origins(d.end.places_end());
     for (std::size_t k = 0; k < d.end.places.size(); ++k) origins[d.end.places[k]] = d.end.origins[k];
     std::vector<OwnVisit> all;
+    all.reserve(d.visits.size());
     for (const Visit& v : d.visits) all.push_back({origins[v.ball], fold_periodic(bodies_.grid, v.cell)});
     return all;
 }
