@@ -67,16 +67,13 @@ struct Workshop {
 struct Roster {
     std::vector<BallRecord> records;
     std::vector<BallExtra> extras;           ///< one a record where the scene needs them
-    std::vector<Origin> origins;             ///< of the records in that window; empty where there was none
+    std::vector<Origin> origins;             ///< of the records in what led here; empty where not known
     std::vector<std::uint32_t> places;       ///< in that window's loop, likewise
     std::vector<CellCoordinates> cells;      ///< of the records, folded into the box on periodic axes
     Span cells_x, cells_y;                   ///< that hold them all
     std::vector<std::uint32_t> near_border;  ///< those that halos as wide as all start with may hold
 
-    void clear() {
-        const auto empty = [](auto&... tables) { (tables.clear(), ...); };
-        empty(records, extras, origins, places, cells, near_border);
-    }
+    void clear() { empty(records, extras, origins, places, cells, near_border); }
     /// One more than the last of `places`.
     [[nodiscard]] std::uint32_t places_end() const {
         return places.empty() ? 0 : std::ranges::max(places) + 1;
@@ -116,7 +113,6 @@ struct DomainState {
 
     /// Forgets what the last window came to, but for `end`.
     void clear_outcome() {
-        const auto empty = [](auto&... tables) { (tables.clear(), ...); };
         empty(overwritten, last_overwritten, notes, collisions, copies, copy_visits, visits,
               visits_near_border);
         told = 0;

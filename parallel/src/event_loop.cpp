@@ -23,7 +23,6 @@ void EventLoop::clear(const Region& region, const Time& now) {
         std::fill_n(is_inside_.begin() + y * row + 1, std::max<std::ptrdiff_t>(row - 2, 0), std::uint8_t{1});
     epoch_ = now.epoch;
     now_ = now.offset;
-    const auto empty = [](auto&... tables) { (tables.clear(), ...); };
     empty(records_, locals_, radius_, acceleration_, last_collision_, large_, free_);
     forget_window();
 }
@@ -40,11 +39,9 @@ void EventLoop::forget_window() {
     simultaneous_ = failed_ = full_ = false;
     turns_ = events_at_once_ = 0;
     events = collisions_of_all = 0;
-    const auto empty = [](auto&... tables) { (tables.clear(), ...); };
     empty(notes, collisions, overwritten, visits, visits_of_copies);
     if (!keeps_window) return;
-    const Region& region = region_;
-    touched.assign(static_cast<std::size_t>(region.mark_count()), 0);
+    touched.assign(static_cast<std::size_t>(region_.mark_count()), 0);
     // The domain's own cells are touched, and those beside them.
     const auto own_marks = [](const RegionAxis& axis) {
         std::vector<std::int32_t> marks;
@@ -52,9 +49,9 @@ void EventLoop::forget_window() {
             if (axis.depth(axis.marked(m)) <= 1) marks.push_back(m);
         return marks;
     };
-    const std::vector<std::int32_t> columns = own_marks(region.x);
-    const auto width = static_cast<std::size_t>(region.x.mark_count());
-    for (const std::int32_t y : own_marks(region.y))
+    const std::vector<std::int32_t> columns = own_marks(region_.x);
+    const auto width = static_cast<std::size_t>(region_.x.mark_count());
+    for (const std::int32_t y : own_marks(region_.y))
         for (const std::int32_t x : columns)
             touched[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1;
 }

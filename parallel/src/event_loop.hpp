@@ -40,6 +40,12 @@
 
 namespace carom {
 
+/// Empties tables, which keep their memory.
+template <class... Tables>
+void empty(Tables&... tables) {
+    (tables.clear(), ...);
+}
+
 /// A collision as the loop notes it, enough to count it and to put it in order.
 struct CollisionNote {
     Time time;
@@ -107,9 +113,9 @@ class EventLoop {
     /// simulated until `end`.
     void add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end = kNever);
     // ---- Going on for one more window from where the last one ended, instead of filling.
-    /// Whether the loop holds balls of a region as wide at `now`, and can go on.
+    /// Whether the loop, which has not failed and was not full, holds the balls of this region at `now`.
     [[nodiscard]] bool can_go_on(const Region& region, const Time& now) const {
-        return region == region_ && bodies_.large.empty() && !failed_ && !full_ && time_now() == now;
+        return region == region_ && bodies_.large.empty() && time_now() == now;
     }
     /// Forgets what the last window came to. The balls stay.
     void go_on();

@@ -12,6 +12,10 @@ namespace {
 // A window aims at a few collisions a ball; more than so many, and it was too long by far.
 constexpr std::uint64_t kMostCollisionsOfBall = 32;
 
+const Time& end_at(const std::vector<Time>& ends, std::int32_t depth) {
+    return ends[std::min(static_cast<std::size_t>(depth), ends.size() - 1)];
+}
+
 }  // namespace
 
 /// Appends to a message what a domain holds for the region of another one: plain data, all that the receiver
@@ -81,7 +85,6 @@ std::vector<Time> WindowedEngine::ends_of_copies(std::int32_t halo, const Time& 
 /// copies are given up in time.
 void WindowedEngine::load(Workshop& w, std::size_t self, const Region& region, std::int32_t halo,
                           const Time& window_end, bool ends_early) const {
-    const auto empty = [](auto&... tables) { (tables.clear(), ...); };
     empty(w.message, w.own, w.copies, w.origins);
     w.loop->clear(region, window_start_);
     for (std::uint32_t d = 0; d < domains_.size(); ++d) {
@@ -93,8 +96,7 @@ void WindowedEngine::load(Workshop& w, std::size_t self, const Region& region, s
     const std::vector<Time> ends = ends_early ? ends_of_copies(halo, window_end) : std::vector{kNever};
     for (const BallMessage& ball : w.message) {
         (ball.depth == 0 ? w.own : w.copies).push_back(w.loop->size());
-        w.loop->add(ball.record, &ball.extra, ball.depth == 0,
-                    ends[std::min(static_cast<std::size_t>(ball.depth), ends.size() - 1)]);
+        w.loop->add(ball.record, &ball.extra, ball.depth == 0, end_at(ends, ball.depth));
         w.origins.push_back(ball.origin);
     }
 }
@@ -105,9 +107,7 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
                            const Time& window_end) const {
     EventLoop& loop = *w.loop;
     loop.go_on();
-    const auto end_of = [ends = ends_of_copies(halo, window_end)](std::int32_t depth) -> const Time& {
-        return ends[std::min(static_cast<std::size_t>(depth), ends.size() - 1)];
-    };
+    const std::vector<Time> ends = ends_of_copies(halo, window_end);
     const auto here = [&w](const Origin& o) -> std::uint32_t& {
         if (w.here.size() <= o.domain) w.here.resize(o.domain + 1);
         std::vector<std::uint32_t>& places = w.here[o.domain];
@@ -124,7 +124,7 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
         const BallMessage& ball = w.message[k];
         std::uint32_t& place = here(ball.before);
         if (place == kNowhere) continue;
-        loop.renew(place, ball.record, ball.extra, ball.depth == 0, end_of(ball.depth));
+        loop.renew(place, ball.record, ball.extra, ball.depth == 0, end_at(ends, ball.depth));
         w.places[k] = std::exchange(place, kNowhere);
     }
     for (const std::uint32_t i : w.copies) {
@@ -145,7 +145,7 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
         if (depth == 0) {
             w.own.push_back(i);
         } else if (region.x.covers(c.x) && region.y.covers(c.y)) {
-            loop.hand_over(i, end_of(depth));
+            loop.hand_over(i, end_at(ends, depth));
             left.push_back(i);
         } else {
             loop.remove(i);
@@ -154,7 +154,7 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
     for (std::size_t k = 0; k < w.message.size(); ++k) {
         const BallMessage& ball = w.message[k];
         std::uint32_t i = w.places[k];
-        if (i == kNowhere) i = loop.enter(ball.record, ball.extra, ball.depth == 0, end_of(ball.depth));
+        if (i == kNowhere) i = loop.enter(ball.record, ball.extra, ball.depth == 0, end_at(ends, ball.depth));
         if (w.origins.size() <= i) w.origins.resize(i + 1);
         w.origins[i] = ball.origin;
         (ball.depth == 0 ? w.own : w.copies).push_back(i);
@@ -209,12 +209,10 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
         loop.collisions_of_all - std::min<std::uint64_t>(loop.collisions_of_all, d.notes.size());
     keep_own(d, w);
     d.last_overwritten.resize(w.own.size());
-    d.end.origins.resize(w.own.size());
     for (std::size_t k = 0; k < w.own.size(); ++k) {
         const std::uint32_t i = w.own[k];
-        const Origin& origin = w.origins[i];
+        const Origin& origin = d.end.origins[k];
         d.last_overwritten[k] = loop.last_overwritten(i);
-        d.end.origins[k] = origin;
         domains_[origin.domain].histories[origin.index] = loop.history(i);
     }
     d.copies.reserve(w.copies.size());
@@ -237,9 +235,12 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
 /// The domain's own balls as they are in a loop. All is written over, for it is as long as the time before.
 void WindowedEngine::keep_own(DomainState& d, const Workshop& w) const {
     d.end.places = w.own;
-    d.end.origins.clear();
+    d.end.origins.resize(w.own.size());
     d.end.records.resize(w.own.size());
-    for (std::size_t k = 0; k < w.own.size(); ++k) d.end.records[k] = w.loop->records()[w.own[k]];
+    for (std::size_t k = 0; k < w.own.size(); ++k) {
+        d.end.origins[k] = w.origins[w.own[k]];
+        d.end.records[k] = w.loop->records()[w.own[k]];
+    }
     d.end.extras.clear();
     if (bodies_.needs_extras())
         for (const std::uint32_t i : w.own) d.end.extras.push_back(w.loop->extra(i));

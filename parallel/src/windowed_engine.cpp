@@ -11,6 +11,8 @@ namespace {
 // Cells. What a window costs beside its events is less where loops stay, so that windows may be shorter.
 constexpr std::int32_t kHalo = 7;
 constexpr std::int32_t kHaloWhereLoopsStay = 6;
+// So often the domains that disagree go through a window again before it is given up.
+constexpr int kMostRepairs = 2;
 // The first window's share of an epoch; the next ones follow the collisions that it had.
 constexpr double kFirstWindow = 1.0 / 256;
 // The least window's share of an epoch: what cannot be cut finer, a row of touching balls that is hit at one
@@ -28,6 +30,11 @@ constexpr std::uint64_t kMostCollisionsTogether = 8;
 // A domain may have so many times the mean of balls before the plane is cut anew.
 constexpr double kUneven = 1.5;
 constexpr int kWindowsBetweenSplits = 16;
+
+/// The halo of a domain that runs again.
+constexpr std::int32_t widened(std::int32_t halo) {
+    return halo + halo / 2 + 1;
+}
 
 }  // namespace
 

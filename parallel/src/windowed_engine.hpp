@@ -18,13 +18,6 @@
 
 namespace carom {
 
-/// So often the domains that disagree go through a window again before it is given up.
-inline constexpr int kMostRepairs = 2;
-/// The halo of a domain that runs again.
-[[nodiscard]] constexpr std::int32_t widened(std::int32_t halo) {
-    return halo + halo / 2 + 1;
-}
-
 class WindowedEngine final : public Engine {
  public:
     WindowedEngine(const Bodies& bodies, const EngineStart& start, const Executor& executor, int domains,
