@@ -46,7 +46,8 @@ double depth_of(const PairSearch& search, const PairSearch::Disc& a, const PairS
 /// The same for the balls behind them; none where they do not collide.
 double depth_of(const PairSearch& search, const std::vector<Ball>& balls, const PairSearch::Disc& a,
                 const PairSearch::Disc& b) {
-    return may_collide(balls[a.id].filter, balls[b.id].filter) ? depth_of(search, a, b) : 0;
+    const double depth = depth_of(search, a, b);
+    return depth > 0 && may_collide(balls[a.id].filter, balls[b.id].filter) ? depth : 0;
 }
 
 Overlap in_order(std::uint32_t i, std::uint32_t j, double depth) {

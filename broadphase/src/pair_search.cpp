@@ -8,8 +8,8 @@
 namespace carom::detail {
 namespace {
 
-// A side is larger than the diameters by this factor at least, so that rounding never puts near balls two
-// cells apart.
+// Of a periodic axis, a side is larger than the diameters by this factor at least, so that rounding never
+// puts near balls two cells apart.
 constexpr double kMargin = 1.001;
 // Keeps cell indices, and what is added to them, within 64 bits.
 constexpr double kFarthestCell = 1e18;
@@ -22,10 +22,10 @@ std::uint64_t mixed(std::uint64_t x) {  // the finaliser of splitmix64 (Steele, 
     return x ^ (x >> 31);
 }
 
+/// The least power of two that is not below the diameter.
 int octave(double radius) {
     int exponent = 0;
-    static_cast<void>(std::frexp(2 * kMargin * radius, &exponent));
-    return exponent;
+    return std::frexp(2 * radius, &exponent) == 0.5 ? exponent - 1 : exponent;
 }
 
 }  // namespace
@@ -67,8 +67,8 @@ void PairSearch::lay_out(Level& level, int exponent) {
         // ball is.
         level.inverse[axis] = std::ldexp(1.0, -exponent);
         if (axes_[axis].period == 0) continue;
-        const double cells =
-            std::clamp(std::floor(axes_[axis].period * level.inverse[axis]), 1.0, kMostPeriodicCells);
+        const double cells = std::clamp(std::floor(axes_[axis].period * level.inverse[axis] / kMargin), 1.0,
+                                        kMostPeriodicCells);
         level.count[axis] = static_cast<std::int64_t>(cells);
         level.inverse[axis] = cells / axes_[axis].period;
     }

@@ -68,8 +68,8 @@ class PairSearch {
     }
 
  private:
-    /// Cells of one side for all balls of an octave: the diameters, with a margin, are less than the side and
-    /// at least about half. The balls are sorted by bucket and, in it, by id.
+    /// Cells of one side for all balls of an octave: the diameters are at most the side and more than about
+    /// half. The balls are sorted by bucket and, in it, by id.
     struct Level {
         int exponent = 0;
         std::array<double, 2> inverse{};          // cells a length

@@ -43,7 +43,7 @@ class FillPlacer {
         put(space);
         const std::size_t first = balls.size();
         balls.reserve(first + space.count());
-        for (std::uint32_t id = 0; id < space.count(); ++id) balls.push_back(ball(space.body(id)));
+        for (const std::uint32_t id : space.order_by_place()) balls.push_back(ball(space.body(id)));
         if (fill_.temperature > 0) set_in_motion(balls, first);
     }
 

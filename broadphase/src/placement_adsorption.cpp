@@ -1,78 +1,159 @@
 // Random sequential adsorption (Feder 1980), with discs of different sizes from the largest down.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <numeric>
-#include <optional>
+#include <vector>
 
 #include "placement_methods.hpp"
 
 namespace carom::detail {
 namespace {
 
-// Equal discs need some 40 tries a disc, all in all, to reach a packing of 0.5; they never pass 0.547.
+// Equal discs never pass a packing of 0.547. Places that are known to be taken are seldom tried.
 constexpr std::uint64_t kTriesPerDisc = 64;
 constexpr std::uint64_t kMostTriesInARow = 20000;
-// See Rounds.
-constexpr double kDiscsOfTile = 2048;
-constexpr std::size_t kDiscsOfLastRound = 1024;
-constexpr double kMostTriesOfRound = 0x1p21;
 // Cells of the map below: at most so many a disc, and no finer than this share of the smallest radius.
 constexpr double kCellsPerDisc = 40;
 constexpr double kCellOfRadius = 0.4;
+// A tile of the map: what lies around it stays in the cache.
+constexpr std::size_t kWordsOfTile = 4;
+constexpr std::size_t kRowsOfTile = 256;
+// See Rounds.
+constexpr std::size_t kFewDiscs = 64;
+constexpr double kFewestTries = 1024;
+constexpr double kShareOfRound = 0.75;
+constexpr double kLeastRate = 1e-6;
+constexpr std::size_t kMostlyCovered = 4;
+constexpr std::size_t kTriesWorthFetching = 128;
 
-/// A bit for every cell of a fine grid: set where even the smallest disc of the fill would overlap a body,
-/// wherever in the cell its centre. Most tries end here, at the price of one bit, long before the place would
-/// be searched.
-class CoveredCells {
+/// Words of some rows of the map below.
+struct Tile {
+    std::size_t first_word, last_word;
+    std::size_t first_row, last_row;
+};
+
+struct MapCell {
+    std::uint32_t column, row;
+};
+
+/// A bit for every cell of a fine grid over the places that the smallest disc's centre may take: set where it
+/// would overlap a body, wherever in the cell. The other cells are open.
+class CoverMap {
  public:
-    explicit CoveredCells(const Space& space)
-        : origin_(space.region().min), radius_(space.smallest_scaled_radius()) {
-        const double side = std::max(kCellOfRadius * radius_, std::sqrt(space.width(0) * space.width(1) /
-                                                                        (kCellsPerDisc * space.count())));
+    explicit CoverMap(const Space& space) : space_(space), radius_(space.smallest_scaled_radius()) {
+        const double most = kCellsPerDisc * space.count();
+        const double side =
+            std::max(kCellOfRadius * radius_, std::sqrt(space.width(0) * space.width(1) / most));
         for (int axis = 0; axis < 2; ++axis) {
-            const double most = kCellsPerDisc * space.count();
-            const double cells = std::clamp(std::floor(space.width(axis) / side), 1.0, most);
-            count_[axis] = static_cast<std::int64_t>(cells);
-            side_[axis] = space.width(axis) / cells;
-            inverse_[axis] = cells / space.width(axis);
-            wraps_[axis] = space.wraps(axis);
+            low_[axis] = space.low(axis, radius_);
+            high_[axis] = space.high(axis, radius_);
+            const double width = high_[axis] - low_[axis];
+            const double cells = std::clamp(std::floor(width / side), 1.0, most);
+            count_[axis] = static_cast<std::size_t>(cells);
+            side_[axis] = width / cells;
+            inverse_[axis] = width > 0 ? cells / width : 0;
         }
-        bits_.assign(static_cast<std::size_t>(count_[0] * count_[1]) / 64 + 1, 0);
+        words_ = (count_[0] + 63) / 64;
+        bits_.assign(words_ * count_[1], 0);
+        for (std::size_t row = 0; row < count_[1]; ++row) set(row, count_[0], 64 * words_);
     }
 
-    [[nodiscard]] bool covers(const Vec2& p) const {
-        const auto index = [&](int axis) {
-            return std::clamp(static_cast<std::int64_t>((p[axis] - origin_[axis]) * inverse_[axis]),
-                              std::int64_t{0}, count_[axis] - 1);
+    [[nodiscard]] Tile whole() const { return {0, words_, 0, count_[1]}; }
+    [[nodiscard]] std::vector<Tile> tiles() const {
+        std::vector<Tile> tiles;
+        for (std::size_t row = 0; row < count_[1]; row += kRowsOfTile)
+            for (std::size_t word = 0; word < words_; word += kWordsOfTile)
+                tiles.push_back({word, std::min(word + kWordsOfTile, words_), row,
+                                 std::min(row + kRowsOfTile, count_[1])});
+        return tiles;
+    }
+    [[nodiscard]] static MapCell first_cell(const Tile& tile) {
+        return {static_cast<std::uint32_t>(64 * tile.first_word), static_cast<std::uint32_t>(tile.first_row)};
+    }
+    [[nodiscard]] MapCell last_cell(const Tile& tile) const {
+        return {static_cast<std::uint32_t>(std::min(64 * tile.last_word, count_[0]) - 1),
+                static_cast<std::uint32_t>(tile.last_row - 1)};
+    }
+    [[nodiscard]] std::size_t cells(const Tile& tile) const {
+        return (std::min(64 * tile.last_word, count_[0]) - 64 * tile.first_word) *
+               (tile.last_row - tile.first_row);
+    }
+    [[nodiscard]] std::size_t open_cells(const Tile& tile) const {
+        std::size_t open = 0;
+        for_each_word(tile, [&](std::size_t row, std::size_t word) {
+            open += static_cast<std::size_t>(std::popcount(~word_at(row, word)));
+        });
+        return open;
+    }
+    /// The open cells of a tile.
+    void list_open(const Tile& tile, std::vector<MapCell>& cells) const {
+        cells.clear();
+        for_each_word(tile, [&](std::size_t row, std::size_t word) {
+            for (std::uint64_t open = ~word_at(row, word); open != 0; open &= open - 1)
+                cells.push_back({static_cast<std::uint32_t>(64 * word) +
+                                     static_cast<std::uint32_t>(std::countr_zero(open)),
+                                 static_cast<std::uint32_t>(row)});
+        });
+    }
+    [[nodiscard]] bool is_open(const MapCell& cell) const {
+        return (word_at(cell.row, cell.column / 64) >> (cell.column % 64) & 1) == 0;
+    }
+    /// The place at these shares, in [0, 1), of the sides of a cell.
+    [[nodiscard]] Vec2 place(const MapCell& cell, double share_x, double share_y) const {
+        const auto along = [this](int axis, std::uint32_t index, double share) {
+            return std::min(low_[axis] + (index + share) * side_[axis], high_[axis]);
         };
-        const auto bit = static_cast<std::size_t>(index(1) * count_[0] + index(0));
-        return (bits_[bit / 64] >> (bit % 64) & 1) != 0;
+        return space_.wrapped({along(0, cell.column, share_x), along(1, cell.row, share_y)});
+    }
+
+    /// Asks for the memory of a tile and of the bodies around, ahead of its use.
+    void fetch(const Tile& tile) const {
+        for (std::size_t row = tile.first_row; row < tile.last_row; ++row)
+            __builtin_prefetch(&word_at(row, tile.first_word), 1);
+        space_.fetch(place(first_cell(tile), 0, 0), place(last_cell(tile), 0, 0));
     }
 
     void add(const Space::Body& body) {
         // Cells are taken a hair larger than they are: a centre on a cell's edge may be counted in either.
         const double reach = (body.radius + radius_) * (1 - 1e-6);
-        const double x = body.x - origin_.x();
-        const double y = body.y - origin_.y();
+        const double x = body.x - low_[0];
+        const double y = body.y - low_[1];
         const auto [first, last] = whole_cells(1, y, reach);
-        if (last - first >= count_[1]) return;  // as wide as the region: not worth the care
+        if (last - first >= signed_count(1)) return;  // as wide as the region: not worth the care
         for (std::int64_t row = first; row < last; ++row) {
             const double below = std::abs(static_cast<double>(row) * side_[1] - y);
             const double above = std::abs(static_cast<double>(row + 1) * side_[1] - y);
             const double away = std::max(below, above);
             const auto [left, right] =
                 whole_cells(0, x, std::sqrt(std::max(0.0, reach * reach - away * away)));
-            if (right - left >= count_[0]) continue;
-            for (std::int64_t column = left; column < right; ++column) set(column, row);
+            if (left >= right || right - left >= signed_count(0)) continue;
+            const std::int64_t count = signed_count(0);
+            const auto in_row = static_cast<std::size_t>(turned(row, signed_count(1)));
+            if (left < 0) set(in_row, static_cast<std::size_t>(left + count), count_[0]);
+            if (right > count) set(in_row, 0, static_cast<std::size_t>(right - count));
+            set(in_row, static_cast<std::size_t>(std::max(left, std::int64_t{0})),
+                static_cast<std::size_t>(std::min(right, count)));
         }
     }
 
  private:
+    [[nodiscard]] const std::uint64_t& word_at(std::size_t row, std::size_t word) const {
+        return bits_[row * words_ + word];
+    }
+    [[nodiscard]] std::int64_t signed_count(int axis) const {
+        return static_cast<std::int64_t>(count_[axis]);
+    }
+    [[nodiscard]] static std::int64_t turned(std::int64_t k, std::int64_t n) {
+        return k < 0 ? k + n : k >= n ? k - n : k;
+    }
+
     /// The cells that lie within x - reach and x + reach: the first, and the one after the last.
     [[nodiscard]] std::array<std::int64_t, 2> whole_cells(int axis, double x, double reach) const {
         double first = std::ceil((x - reach) * inverse_[axis]);
         double last = std::floor((x + reach) * inverse_[axis]);
-        if (!wraps_[axis]) {
+        if (!space_.wraps(axis)) {
             first = std::max(first, 0.0);
             last = std::min(last, static_cast<double>(count_[axis]));
         }
@@ -80,65 +161,175 @@ class CoveredCells {
         return {static_cast<std::int64_t>(first), static_cast<std::int64_t>(last)};
     }
 
-    void set(std::int64_t column, std::int64_t row) {
-        const auto turned = [](std::int64_t k, std::int64_t n) { return k < 0 ? k + n : k >= n ? k - n : k; };
-        const auto bit =
-            static_cast<std::size_t>(turned(row, count_[1]) * count_[0] + turned(column, count_[0]));
-        bits_[bit / 64] |= std::uint64_t{1} << (bit % 64);
+    /// Covers the cells of a row from the first to before the last.
+    void set(std::size_t row, std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; k = (k / 64 + 1) * 64) {
+            const std::uint64_t to_the_end = ~std::uint64_t{0} << (k % 64);
+            const std::size_t beyond = (k / 64 + 1) * 64;
+            bits_[row * words_ + k / 64] |=
+                beyond <= last ? to_the_end : to_the_end & ~(~std::uint64_t{0} << (last % 64));
+        }
     }
 
-    Vec2 origin_;
+    template <class Visit>
+    void for_each_word(const Tile& tile, Visit&& visit) const {
+        for (std::size_t row = tile.first_row; row < tile.last_row; ++row)
+            for (std::size_t word = tile.first_word; word < tile.last_word; ++word) visit(row, word);
+    }
+
+    const Space& space_;
     double radius_;
-    std::array<std::int64_t, 2> count_{};
+    std::array<double, 2> low_{}, high_{};
     std::array<double, 2> side_{};
     std::array<double, 2> inverse_{};
-    std::array<bool, 2> wraps_{};
+    std::array<std::size_t, 2> count_{};
+    std::size_t words_ = 0;  // of a row; bits beyond its cells are set
     std::vector<std::uint64_t> bits_;
 };
 
-/// Rounds of tries at uniformly random places. Those of a round are sorted by tiles of the region, so that
-/// the bodies around them are in the cache; within a tile their order stays. A round is so small that about
-/// half of the discs still missing find a place in it and it never ends before its last tile: the outcome is
-/// that of a random order, but for tries within reach of each other across a tile's edge.
-class Rounds {
+/// Rounds of tries at uniformly random places that are not known to be covered. Those of a round go from tile
+/// to tile, so that the bodies around them are in the cache; within a tile their order is random. A round is
+/// so small that about three quarters of the discs still missing find a place in it, and it does not end
+/// before its last tile: the outcome is that of a random order, but for tries within reach of each other
+/// across a tile's edge. The last few discs have all of the map for their tile.
+class Adsorption {
  public:
-    using Share = std::array<double, 2>;  // of the way from the lowest to the highest place
-
-    explicit Rounds(const Space& space) {
-        const double side = std::sqrt(space.width(0) * space.width(1) * kDiscsOfTile / space.count());
-        for (int axis = 0; axis < 2; ++axis)
-            tiles_[axis] = std::clamp(std::floor(space.width(axis) / side), 1.0, 4096.0);
+    Adsorption(Space& space, Random& random)
+        : space_(space),
+          random_(random),
+          map_(space),
+          order_(largest_first(space)),
+          left_(kTriesPerDisc * space.count() + kMostTriesInARow) {
+        for (std::uint32_t id = space.count(); id < space.body_count(); ++id) map_.add(space.body(id));
     }
 
-    /// The next round's shares, for a number of missing discs and the rate of success of late.
-    const std::vector<Share>& draw(std::size_t missing, double rate, Random& random) {
-        const bool last = missing < kDiscsOfLastRound || tiles_[0] * tiles_[1] == 1;
-        const double wanted = static_cast<double>(missing) / (2 * rate);
-        shares_.resize(last ? kDiscsOfLastRound
-                            : static_cast<std::size_t>(std::min(wanted, kMostTriesOfRound)));
-        for (Share& share : shares_) share = {random.uniform(), random.uniform()};
-        if (!last) sort();
-        return shares_;
+    /// Until all discs have a place or it is time to give up; gives those without.
+    std::vector<std::uint32_t> run() {
+        const std::vector<Tile> all{map_.whole()};
+        const std::vector<Tile> tiles = map_.tiles();
+        double rate = 1;  // of success, in open cells
+        while (goes_on()) {
+            const std::size_t missing = order_.size() - done_;
+            const double wanted = kShareOfRound * static_cast<double>(missing) / rate;
+            rate = round(missing < kFewDiscs ? all : tiles, std::max(wanted, kFewestTries));
+        }
+        return {order_.begin() + static_cast<std::ptrdiff_t>(done_), order_.end()};
     }
 
  private:
-    void sort() {  // by counting
-        const auto tile = [&](const Share& s) {
-            return static_cast<std::size_t>(std::floor(s[1] * tiles_[1]) * tiles_[0] +
-                                            std::floor(s[0] * tiles_[0]));
-        };
-        next_.assign(static_cast<std::size_t>(tiles_[0] * tiles_[1]) + 1, 0);
-        for (const Share& share : shares_) ++next_[tile(share) + 1];
-        for (std::size_t k = 0; k + 1 < next_.size(); ++k) next_[k + 1] += next_[k];
-        sorted_.resize(shares_.size());
-        for (const Share& share : shares_) sorted_[next_[tile(share)]++] = share;
-        shares_.swap(sorted_);
+    /// Two shares in [0, 1).
+    std::array<double, 2> shares() {
+        const auto [x, y] = random_.symmetric_pair();
+        return {(x + 1) / 2, (y + 1) / 2};
+    }
+    [[nodiscard]] bool goes_on() const {
+        return done_ < order_.size() && left_ > 0 && in_a_row_ < kMostTriesInARow;
+    }
+    void count_try() {
+        --left_;
+        ++in_a_row_;
+    }
+    void put(const Vec2& p) {
+        const std::uint32_t id = order_[done_];
+        if (!space_.is_clear(p, space_.body(id).radius)) return;
+        space_.insert(id, p);
+        map_.add(space_.body(id));
+        in_a_row_ = 0;
+        ++done_;
     }
 
-    std::array<double, 2> tiles_{};
-    std::vector<Share> shares_;
-    std::vector<Share> sorted_;
-    std::vector<std::size_t> next_;
+    /// Tries until so many went to cells that are open; gives how many of these found room.
+    double round(const std::vector<Tile>& tiles, double wanted) {
+        std::vector<std::size_t> open;
+        open.reserve(tiles.size());
+        for (const Tile& tile : tiles) open.push_back(map_.open_cells(tile));
+        const std::size_t cells = map_.cells(map_.whole());
+        const std::size_t all_open = std::accumulate(open.begin(), open.end(), std::size_t{0});
+        if (all_open == 0) {
+            left_ = 0;
+            return kLeastRate;
+        }
+        // Where few cells are open they are listed and one of them is taken; else any cell.
+        const bool lists = kMostlyCovered * all_open < cells;
+        std::vector<std::size_t> end;  // of the cells that may be taken, tile after tile
+        end.reserve(tiles.size());
+        for (std::size_t k = 0; k < tiles.size(); ++k)
+            end.push_back((k == 0 ? 0 : end.back()) + (lists ? open[k] : map_.cells(tiles[k])));
+        const double tries = wanted * double(end.back()) / double(all_open);
+        const std::vector<std::size_t> share =
+            shares_of_tiles(end, std::min(left_, static_cast<std::uint64_t>(tries)));
+        const std::size_t before = done_;
+        for (std::size_t k = 0; k < tiles.size() && goes_on(); ++k) {
+            if (tiles.size() > 1 && share[k] > kTriesWorthFetching) map_.fetch(tiles[k]);
+            if (lists) {
+                map_.list_open(tiles[k], listed_);
+                try_listed(open[k], share[k]);
+            } else {
+                try_any(tiles[k], share[k]);
+            }
+        }
+        return std::max(static_cast<double>(done_ - before) / wanted, kLeastRate);
+    }
+
+    /// How many of the tries fall to each tile.
+    std::vector<std::size_t> shares_of_tiles(const std::vector<std::size_t>& end, std::size_t tries) {
+        // The first tile that a k-th of the cells may belong to; mostly it is that one.
+        std::vector<std::size_t> guide(16 * end.size());
+        const auto cells = static_cast<double>(end.back());
+        const auto parts = static_cast<double>(guide.size());
+        for (std::size_t k = 0, tile = 0; k < guide.size(); ++k) {
+            while (static_cast<double>(end[tile]) * parts <= static_cast<double>(k) * cells) ++tile;
+            guide[k] = tile;
+        }
+        std::vector<std::size_t> share(end.size(), 0);
+        for (std::size_t k = 0; k < tries; k += 2) {
+            for (const double at : shares()) {
+                const auto cell = static_cast<std::size_t>(at * cells);
+                std::size_t tile = guide[static_cast<std::size_t>(at * parts)];
+                while (end[tile] <= cell) ++tile;
+                ++share[tile];
+            }
+        }
+        return share;
+    }
+
+    void try_any(const Tile& tile, std::size_t tries) {
+        const MapCell first = map_.first_cell(tile);
+        const MapCell last = map_.last_cell(tile);
+        const double width = last.column - first.column + 1;
+        const double height = last.row - first.row + 1;
+        for (; tries > 0 && goes_on(); --tries) {
+            const auto [share_x, share_y] = shares();
+            const double x = share_x * width;
+            const double y = share_y * height;
+            const auto column = static_cast<std::uint32_t>(x);
+            const auto row = static_cast<std::uint32_t>(y);
+            const MapCell cell{first.column + column, first.row + row};
+            count_try();
+            if (map_.is_open(cell)) put(map_.place(cell, x - column, y - row));
+        }
+    }
+
+    /// Of `cells` that were open when the round began, those listed still are.
+    void try_listed(std::size_t cells, std::size_t tries) {
+        for (; tries > 0 && goes_on(); --tries) {
+            const auto k = static_cast<std::size_t>(random_.uniform() * static_cast<double>(cells));
+            count_try();
+            if (k >= listed_.size() || !map_.is_open(listed_[k])) continue;
+            const auto [x, y] = shares();
+            put(map_.place(listed_[k], x, y));
+        }
+    }
+
+    Space& space_;
+    Random& random_;
+    CoverMap map_;
+    std::vector<std::uint32_t> order_;
+
+    std::size_t done_ = 0;
+    std::uint64_t left_;
+    std::uint64_t in_a_row_ = 0;
+    std::vector<MapCell> listed_;
 };
 
 }  // namespace
@@ -157,38 +348,7 @@ std::vector<std::uint32_t> largest_first(const Space& space) {
 
 std::vector<std::uint32_t> adsorb(Space& space, Random& random) {
     space.clear();
-    CoveredCells covered(space);
-    for (std::uint32_t id = space.count(); id < space.body_count(); ++id) covered.add(space.body(id));
-    const std::vector<std::uint32_t> order = largest_first(space);
-    Rounds rounds(space);
-    double rate = 1;
-    std::uint64_t left = kTriesPerDisc * space.count() + kMostTriesInARow;
-    std::uint64_t in_a_row = 0;
-    std::size_t done = 0;
-    double radius = 0;
-    std::optional<Places> places;  // of that radius
-    while (done < order.size() && left > 0 && in_a_row < kMostTriesInARow) {
-        const std::size_t before = done;
-        const auto& shares = rounds.draw(order.size() - done, rate, random);
-        for (const auto& [share_x, share_y] : shares) {
-            if (done == order.size() || left == 0) break;
-            const std::uint32_t id = order[done];
-            if (space.body(id).radius != radius) {
-                radius = space.body(id).radius;
-                places.emplace(space, radius);
-            }
-            const Vec2 p = places->at(share_x, share_y);
-            --left;
-            ++in_a_row;
-            if (covered.covers(p) || !space.is_clear(p, radius)) continue;
-            space.insert(id, p);
-            covered.add(space.body(id));
-            in_a_row = 0;
-            ++done;
-        }
-        rate = std::max(static_cast<double>(done - before) / static_cast<double>(shares.size()), 1e-6);
-    }
-    return {order.begin() + static_cast<std::ptrdiff_t>(done), order.end()};
+    return Adsorption(space, random).run();
 }
 
 }  // namespace carom::detail

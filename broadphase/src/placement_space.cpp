@@ -130,7 +130,6 @@ void Space::lay_out_levels() {
     level_of_.reserve(bodies_.size());
     for (const Body& body : bodies_) level_of_.push_back(place[slot(body)]);
     head_.resize(cells);
-    next_.resize(bodies_.size());
 }
 
 void Space::clear() {
@@ -202,26 +201,40 @@ bool Space::is_clear(const Vec2& p, double radius, std::uint32_t self) const {
     return clear;
 }
 
+void Space::fetch(const Vec2& low, const Vec2& high) const {
+    for (const Level& level : levels_) {
+        const std::int64_t left = index(level, 0, low.x());
+        const std::int64_t right = index(level, 0, high.x());
+        const std::int64_t top = index(level, 1, high.y());
+        for (std::int64_t row = index(level, 1, low.y()); row <= top; ++row) {
+            const std::uint32_t* heads = &head_[level.first_cell + row * level.count[0]];
+            for (std::int64_t column = left; column <= right; ++column)
+                if (heads[column] != kNone) __builtin_prefetch(&bodies_[heads[column]]);
+        }
+    }
+}
+
 void Space::insert(std::uint32_t id, const Vec2& p) {
     Body& body = bodies_[id];
     body.x = p.x();
     body.y = p.y();
     std::uint32_t& head = head_[cell_of(body, id)];
-    next_[id] = head;
+    body.next = head;
     head = id;
 }
 
 void Space::remove(std::uint32_t id) {
     std::uint32_t* link = &head_[cell_of(bodies_[id], id)];
-    while (*link != id) link = &next_[*link];
-    *link = next_[id];
+    while (*link != id) link = &bodies_[*link].next;
+    *link = bodies_[id].next;
 }
 
 void Space::move(std::uint32_t id, const Vec2& p) {
     Body& body = bodies_[id];
     const Body moved{p.x(), p.y(), body.radius};
     if (cell_of(body, id) == cell_of(moved, id)) {
-        body = moved;
+        body.x = p.x();
+        body.y = p.y();
         return;
     }
     remove(id);
@@ -233,18 +246,25 @@ void Space::set_scale(double scale) {
     for (std::uint32_t id = 0; id < count(); ++id) bodies_[id].radius = scale * full_radius_[id];
 }
 
-void Space::sort_by_place() {
-    // Rows as high as the finest grid's cells, balls of a row from left to right; ties cannot be told apart
-    // and are left by id.
+std::vector<std::uint32_t> Space::order_by_place() const {
+    // A counting sort by the finest grid's cells.
     const Level& finest = levels_.back();
+    std::vector<std::uint32_t> cell(count());
+    std::vector<std::uint32_t> next(static_cast<std::size_t>(finest.count[0] * finest.count[1]) + 1, 0);
+    for (std::uint32_t id = 0; id < count(); ++id) {
+        const Body& body = bodies_[id];
+        cell[id] =
+            static_cast<std::uint32_t>(index(finest, 1, body.y) * finest.count[0] + index(finest, 0, body.x));
+        ++next[cell[id] + 1];
+    }
+    std::partial_sum(next.begin(), next.end(), next.begin());
     std::vector<std::uint32_t> order(count());
-    std::iota(order.begin(), order.end(), std::uint32_t{0});
-    std::vector<std::int64_t> row(count());
-    for (std::uint32_t id = 0; id < count(); ++id) row[id] = index(finest, 1, bodies_[id].y);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        if (row[a] != row[b]) return row[a] < row[b];
-        return bodies_[a].x != bodies_[b].x ? bodies_[a].x < bodies_[b].x : a < b;
-    });
+    for (std::uint32_t id = 0; id < count(); ++id) order[next[cell[id]]++] = id;
+    return order;
+}
+
+void Space::sort_by_place() {
+    const std::vector<std::uint32_t> order = order_by_place();
     const std::vector<Body> bodies(bodies_.begin(), bodies_.begin() + count());
     const std::vector<double> radii = full_radius_;
     const std::vector<std::uint8_t> levels(level_of_.begin(), level_of_.begin() + count());

@@ -25,6 +25,7 @@ class Space {
         double x;
         double y;
         double radius;
+        std::uint32_t next = kNone;  ///< of its cell
     };
 
     /// `radii` are the fill's; at least one. Balls and walls out of reach of the region are left out.
@@ -63,14 +64,18 @@ class Space {
         return {dx, dy};
     }
 
+    /// Asks for the memory of the bodies between two places, ahead of its use.
+    void fetch(const Vec2& low, const Vec2& high) const;
     void insert(std::uint32_t id, const Vec2& p);
     void remove(std::uint32_t id);
     void move(std::uint32_t id, const Vec2& p);
     void clear();
     /// Discs of the fill have `scale` times their full radius, at most 1.
     void set_scale(double scale);
-    /// Gives all discs of the fill, which must be in place, new ids from row to row of the region, so that
-    /// neighbours in space become neighbours in memory.
+    /// The fill's discs, which must be in place, from row to row of cells of the region and from cell to cell
+    /// of a row; those of a cell by their ids.
+    [[nodiscard]] std::vector<std::uint32_t> order_by_place() const;
+    /// Gives them new ids in that order, so that neighbours in space become neighbours in memory.
     void sort_by_place();
 
     /// Calls visit(id) for every body whose surface may be less than `reach` from p; none that is, is left
@@ -109,7 +114,7 @@ class Space {
             std::int64_t column = first_column;
             for (std::int64_t c = 0; c < columns; ++c) {
                 for (std::uint32_t id = head_[level.first_cell + row * level.count[0] + column]; id != kNone;
-                     id = next_[id])
+                     id = bodies_[id].next)
                     if (!visit(id)) return false;
                 if (++column == level.count[0]) column = 0;
             }
@@ -130,7 +135,6 @@ class Space {
     WallTree walls_;
     std::vector<Level> levels_;
     std::vector<std::uint32_t> head_;
-    std::vector<std::uint32_t> next_;
 };
 
 }  // namespace carom::detail

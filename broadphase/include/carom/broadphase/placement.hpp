@@ -20,6 +20,8 @@ namespace carom {
 /// places that are pushed apart (soft discs, overlaps minimised sweep by sweep); both are then shaken by
 /// Monte Carlo moves of hard discs. Such a start is no equilibrium: let it run a while.
 ///
+/// A fill's discs are numbered from row to row of its region, for they are looked up with their neighbours.
+///
 /// Velocities are normal with variance temperature / mass, less the velocity of the fill's centre of mass,
 /// and zero at temperature zero. The same seed, index of the fill and scene give the same bits with every
 /// compiler: no function of the mathematical library is used but the exact ones.
