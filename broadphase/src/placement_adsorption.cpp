@@ -15,16 +15,21 @@ namespace {
 constexpr std::uint64_t kTriesPerDisc = 64;
 constexpr std::uint64_t kMostTriesInARow = 20000;
 // Cells of the map below: at most so many a disc, and no finer than this share of the smallest radius.
-constexpr double kCellsPerDisc = 40;
-constexpr double kCellOfRadius = 0.4;
+constexpr double kCellsPerDisc = 53;
+constexpr double kCellOfRadius = 0.35;
 // A tile of the map: what lies around it stays in the cache.
 constexpr std::size_t kWordsOfTile = 4;
 constexpr std::size_t kRowsOfTile = 256;
-// See Rounds.
-constexpr std::size_t kFewDiscs = 64;
+// A round aims at these shares of the discs that are missing: while they are many, more than one in so many
+// of all; then; and of the last few.
+constexpr double kShareOfMany = 0.75;
+constexpr std::size_t kOneInSoMany = 16;
+constexpr double kShareOfFewer = 0.9;
+constexpr std::size_t kFewDiscs = 256;
+constexpr double kShareOfFew = 4;
 constexpr double kFewestTries = 1024;
-constexpr double kShareOfRound = 0.75;
 constexpr double kLeastRate = 1e-6;
+// Cells are listed where at most one in so many is open; fewer tries of a tile are not worth to fetch it for.
 constexpr std::size_t kMostlyCovered = 4;
 constexpr std::size_t kTriesWorthFetching = 128;
 
@@ -188,10 +193,10 @@ class CoverMap {
 };
 
 /// Rounds of tries at uniformly random places that are not known to be covered. Those of a round go from tile
-/// to tile, so that the bodies around them are in the cache; within a tile their order is random. A round is
-/// so small that about three quarters of the discs still missing find a place in it, and it does not end
-/// before its last tile: the outcome is that of a random order, but for tries within reach of each other
-/// across a tile's edge. The last few discs have all of the map for their tile.
+/// to tile, so that the bodies around them are in the cache; within a tile their order is random. A round
+/// does not find room for all discs that are missing, so that it does not end before its last tile: the
+/// outcome is that of a random order, but for tries within reach of each other across a tile's edge. The last
+/// few discs have all of the map for their tile.
 class Adsorption {
  public:
     Adsorption(Space& space, Random& random)
@@ -210,8 +215,11 @@ class Adsorption {
         double rate = 1;  // of success, in open cells
         while (goes_on()) {
             const std::size_t missing = order_.size() - done_;
-            const double wanted = kShareOfRound * static_cast<double>(missing) / rate;
-            rate = round(missing < kFewDiscs ? all : tiles, std::max(wanted, kFewestTries));
+            const bool few = missing < kFewDiscs;
+            const bool many = kOneInSoMany * missing > order_.size();
+            const double share = few ? kShareOfFew : many ? kShareOfMany : kShareOfFewer;
+            const double wanted = share * static_cast<double>(missing) / rate;
+            rate = round(few ? all : tiles, std::max(wanted, kFewestTries));
         }
         return {order_.begin() + static_cast<std::ptrdiff_t>(done_), order_.end()};
     }

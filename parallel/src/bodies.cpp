@@ -7,10 +7,12 @@
 
 namespace carom {
 
-Property::Property(std::vector<double> values) {
-    if (values.empty()) return;
-    one_ = values.front();
-    if (std::ranges::any_of(values, [this](double v) { return v != one_; })) each_ = std::move(values);
+Property::Property(std::span<const Ball> balls, double Ball::* member) {
+    if (balls.empty()) return;
+    one_ = balls.front().*member;
+    if (std::ranges::all_of(balls, [&](const Ball& b) { return b.*member == one_; })) return;
+    each_.reserve(balls.size());
+    for (const Ball& b : balls) each_.push_back(b.*member);
 }
 
 Bodies::Bodies(const Physics& scene_physics, std::span<const Ball> balls, std::span<const Wall> scene_walls,
@@ -20,15 +22,9 @@ Bodies::Bodies(const Physics& scene_physics, std::span<const Ball> balls, std::s
       walls(scene_walls.begin(), scene_walls.end()),
       attractors(scene_attractors.begin(), scene_attractors.end()),
       count(static_cast<std::uint32_t>(balls.size())) {
-    const auto values = [&balls](double Ball::* member) {
-        std::vector<double> all;
-        all.reserve(balls.size());
-        for (const Ball& b : balls) all.push_back(b.*member);
-        return Property(std::move(all));
-    };
-    radius = values(&Ball::radius);
-    mass = values(&Ball::mass);
-    restitution = values(&Ball::restitution);
+    radius = {balls, &Ball::radius};
+    mass = {balls, &Ball::mass};
+    restitution = {balls, &Ball::restitution};
     if (std::ranges::any_of(balls, &Ball::is_static)) {
         for (const Ball& b : balls) {
             is_static.push_back(b.is_static ? 1 : 0);

@@ -22,7 +22,7 @@ namespace carom {
 class Property {
  public:
     Property() = default;
-    explicit Property(std::vector<double> values);
+    Property(std::span<const Ball> balls, double Ball::* member);
 
     [[nodiscard]] double of(std::uint32_t id) const { return each_.empty() ? one_ : each_[id]; }
     [[nodiscard]] bool is_one() const { return each_.empty(); }

@@ -1,10 +1,13 @@
 // Builds a world from a scene or a snapshot, keeps its time and the field's schedule, reads its balls.
 #include "world_state.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <ranges>
 #include <sstream>
 #include <stdexcept>
 
@@ -17,26 +20,26 @@
 namespace carom {
 namespace {
 
-std::vector<Ball> place_checked(const Scene& scene) {
+/// All balls of the scene, in `placed` where they are not its own as they are: many would be long to copy.
+const std::vector<Ball>& place_checked(const Scene& scene, std::vector<Ball>& placed) {
     check(scene);
-    std::vector<Ball> balls = place_balls(scene);
-    if (!scene.allows_overlap) check_overlaps(balls, scene);
-    if (scene.precision == Precision::kFloat) std::ranges::for_each(balls, round_to_float);
-    return balls;
+    if (!scene.allows_overlap) check_overlaps(scene.balls, scene);  // those of fills are placed clear of all
+    const bool in_double = scene.precision == Precision::kDouble;
+    if (scene.fills.empty() && in_double) return scene.balls;
+    placed = place_balls(scene);
+    if (!in_double) std::ranges::for_each(placed, round_to_float);
+    return placed;
 }
 
 /// The diameter that the cells follow: the largest, but for a few balls that may be larger than a cell.
 double listed_diameter(const std::vector<Ball>& balls) {
     constexpr std::size_t kMostLarge = 16;
-    std::vector<double> diameters;
-    diameters.reserve(balls.size());
-    for (const Ball& b : balls)
-        if (!b.is_static) diameters.push_back(2 * b.radius);
-    if (diameters.empty()) return 0;
-    const std::size_t larger = diameters.size() > 4 * kMostLarge ? kMostLarge : 0;
-    std::ranges::nth_element(diameters, diameters.begin() + static_cast<std::ptrdiff_t>(larger),
-                             std::greater<>());
-    return diameters[larger];
+    const auto moves = [](const Ball& b) { return !b.is_static; };
+    std::array<double, kMostLarge + 1> radii{};
+    std::ranges::partial_sort_copy(balls | std::views::filter(moves) | std::views::transform(&Ball::radius),
+                                   radii, std::greater<>());
+    return 2 * (std::ranges::count_if(balls, moves) > 4 * std::ptrdiff_t{kMostLarge} ? radii.back()
+                                                                                     : radii.front());
 }
 
 bool is_free(const Scene& scene, const std::vector<Ball>& balls) {
@@ -91,7 +94,8 @@ Cast::Cast(Scene scene, const Physics& physics, const std::vector<Ball>& balls, 
 
 World::State::State(const Scene& scene, const WorldOptions& options, const Snapshot* snapshot)
     : wanted(options), executor(options.threads), sensors(scene.sensors) {
-    const std::vector<Ball> balls = place_checked(scene);
+    std::vector<Ball> placed;
+    const std::vector<Ball>& balls = place_checked(scene, placed);
     const Physics physics = derive_physics(scene, balls);
     auto first = std::make_shared<Cast>(rules_of(scene), physics, balls, options.cell_size);
     hash = first->scene_hash = carom::scene_hash(first->rules, physics, balls, executor);
