@@ -32,13 +32,18 @@ void EventLoopOf<A>::sight_all() {
     for (std::uint32_t i = 0; i < size(); ++i) sight(i);
 }
 
-/// Bounds on when ball i meets each of the candidates.
+/// Bounds on when ball i meets each of the candidates. The likeliest will be looked at exactly.
 template <Acceleration A>
 void EventLoopOf<A>::look(std::uint32_t i, Candidates& found) const {
     const Indices self = Indices{} + i;
     std::memcpy(&found.ids[found.count], &self, sizeof(self));
-    for (std::size_t first = 0; first < found.count; first += kLanes)
-        found.bounds[first / kLanes] = sights_.bounds(i, &found.ids[first], now_);
+    for (std::size_t first = 0; first < found.count; first += kLanes) {
+        const Floats bounds = sights_.bounds(i, &found.ids[first], now_);
+        const unsigned soonest = bits_of(bounds <= least_of(bounds));
+        found.bounds[first / kLanes] = bounds;
+        found.soonest[first / kLanes] = soonest;
+        fetch(found.ids[first + static_cast<std::size_t>(std::countr_zero(soonest))]);
+    }
 }
 
 /// Ball i against the candidates that it has looked at: exactly where the bounds leave it open who is first.
@@ -57,7 +62,7 @@ void EventLoopOf<A>::choose(std::uint32_t i, const Candidates& found, NextEvent&
         };
         unsigned open = bits_of(bounds <= latest());
         if (open == 0) continue;
-        const unsigned soonest = bits_of(bounds <= least_of(bounds));
+        const unsigned soonest = found.soonest[first / kLanes];
         consider_lane(soonest);
         open &= bits_of(bounds <= latest()) & ~(soonest & -soonest);
         for (; open != 0; open &= open - 1) consider_lane(open);

@@ -70,6 +70,7 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
             refuse_wedged(i);
         }
         if (may_be_tied) i = first_of_ties();
+        fetch_pair(queue_.coming());
         ++turns_;
         events += locals_[i].owned;
         if (crosses_first(i))

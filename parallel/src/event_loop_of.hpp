@@ -97,7 +97,8 @@ class EventLoopOf final : public EventLoop {
         CellCoordinates reach{1, 1};  // how many cells away they may be
         // NOLINTBEGIN(*-member-init): not all of it is used
         std::array<std::uint32_t, kMostCandidates + kLanes> ids;
-        std::array<Floats, (kMostCandidates + kLanes - 1) / kLanes> bounds;  // eight candidates each
+        std::array<Floats, (kMostCandidates + kLanes - 1) / kLanes> bounds;     // eight candidates each
+        std::array<unsigned, (kMostCandidates + kLanes - 1) / kLanes> soonest;  // of the eight, a bit each
         // NOLINTEND(*-member-init)
     };
     void look(std::uint32_t i, Candidates& found) const;
@@ -120,6 +121,17 @@ class EventLoopOf final : public EventLoop {
     }
     [[nodiscard]] NextEvent search_among(std::uint32_t i, const Candidates& found, bool has_looked) const;
     void expect(std::uint32_t i, const NextEvent& event);
+    /// Asks for the memory of a ball ahead of its use.
+    void fetch(std::uint32_t i) const {
+        __builtin_prefetch(&records_[i].anchor);
+        __builtin_prefetch(&records_[i].next);
+    }
+    /// That of its partner too, ahead of its event.
+    void fetch_pair(std::uint32_t i) const {
+        fetch(i);
+        const std::uint32_t j = records_[i].next.local;
+        fetch(j == kNowhere ? i : j);
+    }
     /// Whether an event's partner, looked for here, is still the one that it was predicted for.
     [[nodiscard]] bool is_current(const NextEvent& event) const {
         const BallRecord& partner = records_[event.local];

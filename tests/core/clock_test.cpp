@@ -110,6 +110,21 @@ TEST(Clock, SecondsSinceAnEpochKeepTheOrder) {
     }
 }
 
+TEST(EventQueue, KnowsWhatMayComeAfterTheFirst) {
+    EventQueue queue(8);
+    EXPECT_LT(queue.coming(), 8U);
+    for (std::uint32_t id = 0; id < 8; ++id) queue.put(id, 8.0 - id);
+    queue.rebuild();
+    int right = 0;  // but where a year ends
+    for (std::uint32_t id = 7; id > 0; --id) {
+        EXPECT_EQ(queue.first(), id);
+        EXPECT_LT(queue.coming(), 8U);
+        right += queue.coming() == id - 1 ? 1 : 0;
+        queue.set(id, std::numeric_limits<double>::infinity());
+    }
+    EXPECT_GE(right, 4);
+}
+
 TEST(EventQueue, HandsOutTheEarliestAndOfEqualsTheSmallestId) {
     constexpr std::uint64_t kSeed = 4;
     std::mt19937_64 random(kSeed);

@@ -77,6 +77,15 @@ class EventQueue {
         return first.id;
     }
 
+    /// An id that may well be the next one after the first; any where none is near.
+    [[nodiscard]] std::uint32_t coming() const {
+        constexpr std::size_t kDays = 3;
+        if (due_.size() > 1) return due_[due_.size() > 2 && due_[2].key < due_[1].key ? 2 : 1].id;
+        for (std::size_t day = day_; day < std::min(day_ + kDays, days_.size()); ++day)
+            if (days_[day] != kNone) return entries_[static_cast<std::size_t>(days_[day])].id;
+        return 0;
+    }
+
     /// Years begun, each of which costs all entries, and entries held, those included that are stale.
     [[nodiscard]] std::uint64_t years() const { return years_; }
     [[nodiscard]] std::size_t entries() const { return entries_.size() + due_.size(); }
