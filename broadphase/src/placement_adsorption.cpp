@@ -13,19 +13,16 @@ namespace {
 
 // Equal discs never pass a packing of 0.547. Places that are known to be taken are seldom tried.
 constexpr std::uint64_t kTriesPerDisc = 64;
-constexpr std::uint64_t kMostTriesInARow = 20000;
+constexpr std::uint64_t kMostFruitlessTries = 20000;
 // Cells of the map below: at most so many a disc, and no finer than this share of the smallest radius.
 constexpr double kCellsPerDisc = 53;
 constexpr double kCellOfRadius = 0.35;
 // A tile of the map: what lies around it stays in the cache.
 constexpr std::size_t kWordsOfTile = 4;
 constexpr std::size_t kRowsOfTile = 256;
-// A round aims at these shares of the discs that are missing: while they are many, more than one in so many
-// of all; then; and of the last few.
-constexpr double kShareOfMany = 0.75;
-constexpr std::size_t kOneInSoMany = 16;
-constexpr double kShareOfFewer = 0.9;
-constexpr std::size_t kFewDiscs = 256;
+// A round aims at this share of the discs that are missing, or at more than all of the last few.
+constexpr double kShareOfRound = 0.8;
+constexpr std::size_t kFewDiscs = 2048;
 constexpr double kShareOfFew = 4;
 constexpr double kFewestTries = 1024;
 constexpr double kLeastRate = 1e-6;
@@ -192,11 +189,11 @@ class CoverMap {
     std::vector<std::uint64_t> bits_;
 };
 
-/// Rounds of tries at uniformly random places that are not known to be covered. Those of a round go from tile
-/// to tile, so that the bodies around them are in the cache; within a tile their order is random. A round
-/// does not find room for all discs that are missing, so that it does not end before its last tile: the
-/// outcome is that of a random order, but for tries within reach of each other across a tile's edge. The last
-/// few discs have all of the map for their tile.
+/// Rounds of tries at uniformly random places that are not known to be covered. Where discs are many and
+/// alike, those of a round go from tile to tile, so that the bodies around them are in the cache; within a
+/// tile their order is random. Such a round does not find room for all discs that are missing, so that it
+/// does not end before its last tile: the outcome is that of a random order, but for tries within reach of
+/// each other across a tile's edge. Discs that differ must not: the first tiles would get the largest.
 class Adsorption {
  public:
     Adsorption(Space& space, Random& random)
@@ -204,22 +201,24 @@ class Adsorption {
           random_(random),
           map_(space),
           order_(largest_first(space)),
-          left_(kTriesPerDisc * space.count() + kMostTriesInARow) {
+          left_(kTriesPerDisc * space.count() + kMostFruitlessTries) {
         for (std::uint32_t id = space.count(); id < space.body_count(); ++id) map_.add(space.body(id));
     }
 
     /// Until all discs have a place or it is time to give up; gives those without.
     std::vector<std::uint32_t> run() {
         const std::vector<Tile> all{map_.whole()};
-        const std::vector<Tile> tiles = map_.tiles();
+        const bool are_alike = space_.smallest_radius() == space_.largest_radius();
+        const std::vector<Tile> tiles = are_alike ? map_.tiles() : all;
         double rate = 1;  // of success, in open cells
-        while (goes_on()) {
+        std::uint64_t fruitless = 0;
+        while (goes_on() && fruitless < kMostFruitlessTries) {
             const std::size_t missing = order_.size() - done_;
             const bool few = missing < kFewDiscs;
-            const bool many = kOneInSoMany * missing > order_.size();
-            const double share = few ? kShareOfFew : many ? kShareOfMany : kShareOfFewer;
-            const double wanted = share * static_cast<double>(missing) / rate;
+            const double wanted = (few ? kShareOfFew : kShareOfRound) * static_cast<double>(missing) / rate;
+            const std::uint64_t before = left_;
             rate = round(few ? all : tiles, std::max(wanted, kFewestTries));
+            fruitless = missing > order_.size() - done_ ? 0 : fruitless + (before - left_);
         }
         return {order_.begin() + static_cast<std::ptrdiff_t>(done_), order_.end()};
     }
@@ -230,19 +229,12 @@ class Adsorption {
         const auto [x, y] = random_.symmetric_pair();
         return {(x + 1) / 2, (y + 1) / 2};
     }
-    [[nodiscard]] bool goes_on() const {
-        return done_ < order_.size() && left_ > 0 && in_a_row_ < kMostTriesInARow;
-    }
-    void count_try() {
-        --left_;
-        ++in_a_row_;
-    }
+    [[nodiscard]] bool goes_on() const { return done_ < order_.size() && left_ > 0; }
     void put(const Vec2& p) {
         const std::uint32_t id = order_[done_];
         if (!space_.is_clear(p, space_.body(id).radius)) return;
         space_.insert(id, p);
         map_.add(space_.body(id));
-        in_a_row_ = 0;
         ++done_;
     }
 
@@ -313,7 +305,7 @@ class Adsorption {
             const auto column = static_cast<std::uint32_t>(x);
             const auto row = static_cast<std::uint32_t>(y);
             const MapCell cell{first.column + column, first.row + row};
-            count_try();
+            --left_;
             if (map_.is_open(cell)) put(map_.place(cell, x - column, y - row));
         }
     }
@@ -322,7 +314,7 @@ class Adsorption {
     void try_listed(std::size_t cells, std::size_t tries) {
         for (; tries > 0 && goes_on(); --tries) {
             const auto k = static_cast<std::size_t>(random_.uniform() * static_cast<double>(cells));
-            count_try();
+            --left_;
             if (k >= listed_.size() || !map_.is_open(listed_[k])) continue;
             const auto [x, y] = shares();
             put(map_.place(listed_[k], x, y));
@@ -336,7 +328,6 @@ class Adsorption {
 
     std::size_t done_ = 0;
     std::uint64_t left_;
-    std::uint64_t in_a_row_ = 0;
     std::vector<MapCell> listed_;
 };
 

@@ -36,9 +36,7 @@ void put_anywhere(Space& space, Random& random) {
     for (std::uint32_t id = 0; id < space.count();
          ++id) {  // scaled discs may lie closer to the sides than full ones can
         const Space::Body& body = space.body(id);
-        const double r = body.radius;
-        space.move(id, {std::clamp(body.x, space.low(0, r), space.high(0, r)),
-                        std::clamp(body.y, space.low(1, r), space.high(1, r))});
+        space.move(id, space.moved_inside({body.x, body.y}, body.radius));
     }
 }
 

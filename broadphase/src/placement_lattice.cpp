@@ -125,9 +125,7 @@ std::vector<Vec2> clear_sites(const Space& space, const Lattice& l, double inset
             p[across] += static_cast<double>(row) * l.row_spacing;
             if (l.rows == 1 && !space.wraps(across))
                 p[across] = (space.region().min[across] + space.region().max[across]) / 2;
-            for (int axis = 0; axis < 2; ++axis)
-                p[axis] = std::clamp(p[axis], space.low(axis, radius), space.high(axis, radius));
-            p = space.wrapped(p);
+            p = space.wrapped(space.moved_inside(p, radius));
             if (space.is_clear(p, radius)) sites.push_back(p);
         }
     }

@@ -1,6 +1,7 @@
 // The region that is being filled: its sides, what was there before, and the discs that are in place so far.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +50,12 @@ class Space {
     /// The lowest and highest coordinate for the centre of a disc: at least a radius inside, in double.
     [[nodiscard]] double low(int axis, double radius) const;
     [[nodiscard]] double high(int axis, double radius) const;
+    /// The place nearest to p between them. A region as wide as the disc may have none, for rounding.
+    [[nodiscard]] Vec2 moved_inside(Vec2 p, double radius) const {
+        for (int axis = 0; axis < 2; ++axis)
+            p[axis] = std::min(std::max(p[axis], low(axis, radius)), high(axis, radius));
+        return p;
+    }
     /// Whether a disc at p, with coordinates from wrapped(), would lie inside the region and clear of
     /// everything but `self`.
     [[nodiscard]] bool is_clear(const Vec2& p, double radius, std::uint32_t self = kNone) const;

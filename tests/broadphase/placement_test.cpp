@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <carom/broadphase/overlap.hpp>
+#include "../../broadphase/src/placement_methods.hpp"
 #include "../../broadphase/src/placement_random.hpp"
 
 namespace carom {
@@ -456,6 +457,74 @@ TEST(Placement, AdsorbedDiscsAreThoseOfOneAfterTheOther) {
     const double expected = theirs[0] + theirs[1];
     EXPECT_NEAR(all, expected, 5 * std::sqrt(all + expected));
     EXPECT_NEAR(ours[0], ours[1], 5 * std::sqrt(all));
+}
+
+TEST(Placement, FewDiscsAreSpreadEvenlyToo) {
+    // Counts in 4 x 4 cells over many seeds, as above: chi squared with 15 degrees of freedom at most.
+    for (const std::uint64_t count : {1400U, 2600U, 6000U}) {
+        std::array<double, 16> counts{};
+        constexpr int kSeeds = 30;
+        for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+            Scene scene = box_scene(Boundary::kPeriodic, Boundary::kPeriodic, Vec2(4, 4));
+            Fill fill = packed(0.001);
+            fill.count = count;
+            fill.seed = seed;
+            scene.fills.push_back(fill);
+            for (const Ball& ball : place_balls(scene))
+                ++counts[static_cast<std::size_t>(ball.position.x() + 3) +
+                         4 * static_cast<std::size_t>(ball.position.y() - 2)];
+        }
+        const double mean = static_cast<double>(count) * kSeeds / 16;
+        double chi_squared = 0;
+        for (const double k : counts) chi_squared += (k - mean) * (k - mean) / mean;
+        EXPECT_LT(chi_squared, 15 + 5 * std::sqrt(2 * 15.0)) << count;
+    }
+}
+
+TEST(Placement, LargeDiscsLieWhereSmallOnesDo) {
+    Scene scene = box_scene(Boundary::kPeriodic, Boundary::kPeriodic, Vec2(100, 100));
+    Fill fill = packed(0.4, 0.1);
+    fill.radius_max = 0.5;
+    scene.fills.push_back(fill);
+    const std::vector<Ball> balls = place_balls(scene);
+    // Correlations of the radius with either coordinate: of independent ones, normal with variance 1 / N.
+    const auto count = static_cast<double>(balls.size());
+    for (int axis = 0; axis < 2; ++axis) {
+        double r = 0, x = 0, rr = 0, xx = 0, rx = 0;
+        for (const Ball& ball : balls) {
+            const double place = ball.position[axis];
+            r += ball.radius / count;
+            x += place / count;
+            rr += ball.radius * ball.radius / count;
+            xx += place * place / count;
+            rx += ball.radius * place / count;
+        }
+        EXPECT_LT(std::abs(rx - r * x) / std::sqrt((rr - r * r) * (xx - x * x)), 5 / std::sqrt(count));
+    }
+}
+
+TEST(Placement, AdsorptionGoesOnWhereHalfOfTheRegionHasNoRoom) {
+    constexpr double kSide = 600;
+    Scene scene;
+    scene.domain = Domain{{Vec2(0, 0), Vec2(kSide, kSide)}, {Boundary::kWall, Boundary::kWall}, 1};
+    for (double y = 0.8; y < kSide / 2; y += 0.8) scene.walls.push_back({Vec2(0, y), Vec2(kSide, y), 1});
+    const std::vector<double> radii(90000, 0.5);
+    detail::Space space(scene, {}, scene.domain->box, radii);
+    detail::Random random(1, 0, detail::Stream::kPlaces);
+    EXPECT_TRUE(detail::adsorb(space, random).empty());
+}
+
+TEST(Placement, ADiscAsWideAsItsRegionIsPlacedOrRefused) {
+    for (int k = 1; k < 200; ++k) {
+        Scene scene;
+        const double low = 0.1 * k;
+        scene.domain = Domain{{Vec2(low, 0.1), Vec2(low + 0.2, 3.3)}, {Boundary::kWall, Boundary::kWall}, 1};
+        Fill fill;
+        fill.count = 1;
+        fill.radius_min = fill.radius_max = (scene.domain->box.max.x() - scene.domain->box.min.x()) / 2;
+        scene.fills.push_back(fill);
+        if (refusal(scene).empty()) expect_inside(place_balls(scene), scene.domain->box, {false, false});
+    }
 }
 
 TEST(Placement, TheWidestOfAChannelHaveHardlyAnyRoomAcross) {
