@@ -49,9 +49,9 @@ void EventLoopOf<A>::run_in_parts(double end, bool inclusive) {
 template <Acceleration A>
 void EventLoopOf<A>::run_until(double end, bool inclusive) {
     while (!failed_) {
-        bool may_be_tied = false;
-        std::uint32_t i = queue_.front(may_be_tied);
-        const double key = queue_.key(i);
+        const EventQueue::Front first = queue_.front();
+        std::uint32_t i = first.id;
+        const double key = first.key;
         if (!(key < end || (inclusive && key == end))) return;
         if (key > now_) {
             if (load() >= room) {
@@ -69,7 +69,8 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
             }
             refuse_wedged(i);
         }
-        if (may_be_tied) i = first_of_ties();
+        if (first.may_be_tied) i = first_of_ties();
+        queue_.take(i);
         fetch_pair(queue_.coming());
         ++turns_;
         events += locals_[i].owned;
@@ -299,10 +300,12 @@ double EventLoopOf<A>::restitution_at(double restitution, std::uint32_t i, std::
 
 template <Acceleration A>
 void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image, const Time& t) {
-    if (records_[j].id < records_[i].id) {
-        std::swap(i, j);
-        image = -image;
-    }
+    const auto is_swapped = static_cast<std::uint32_t>(records_[j].id < records_[i].id);
+    const std::int32_t sign = 1 - 2 * static_cast<std::int32_t>(is_swapped);
+    image = {sign * image.x, sign * image.y};
+    const std::uint32_t swap = (i ^ j) & -is_swapped;
+    i ^= swap;
+    j ^= swap;
     const Image wrapped_i = advance(i, t);
     const Image wrapped_j = advance(j, t);
     image = {image.x - wrapped_i.x + wrapped_j.x, image.y - wrapped_i.y + wrapped_j.y};

@@ -17,19 +17,19 @@ template <Acceleration A>
 Time EventLoopOf<A>::predict_pair(std::uint32_t i, std::uint32_t j, Image image,
                                   [[maybe_unused]] const Time& limit) const {
     // One order for a pair, whoever asks. Without branches: neither order is to be guessed.
-    const bool is_swapped = records_[j].id < records_[i].id;
-    const std::int32_t sign = is_swapped ? -1 : 1;
+    const auto is_swapped = static_cast<std::uint32_t>(records_[j].id < records_[i].id);
+    const std::int32_t sign = 1 - 2 * static_cast<std::int32_t>(is_swapped);
     image = {sign * image.x, sign * image.y};
-    const std::uint32_t lower = is_swapped ? j : i;
-    j = is_swapped ? i : j;
-    i = lower;
+    const std::uint32_t swap = (i ^ j) & -is_swapped;
+    i ^= swap;
+    j ^= swap;
     const Anchor& a = records_[i].anchor;
     const Anchor& b = records_[j].anchor;
-    const bool a_is_earlier = a.time < b.time;
-    const Time& reference = a_is_earlier ? b.time : a.time;
-    const double between = clock_.difference(reference, a_is_earlier ? a.time : b.time);
-    const double since_a = a_is_earlier ? between : 0.0;
-    const double since_b = a_is_earlier ? 0.0 : between;
+    const double from_b = clock_.difference(a.time, b.time);
+    const std::array<const Time*, 2> times = {&a.time, &b.time};
+    const Time& reference = *times[from_b < 0 ? 1 : 0];
+    const double since_a = std::max(-from_b, 0.0);
+    const double since_b = std::max(from_b, 0.0);
     const double sum = radius_of(i) + radius_of(j);
     if constexpr (A == Acceleration::kNone) {
         const GridAxis& axis_x = bodies_.grid.x;
@@ -359,9 +359,9 @@ void EventLoopOf<A>::predict_crossing(std::uint32_t i) {
         const double x = leave(grid.x.border(c.x + right) - a.x, a.vx);
         const double y = leave(grid.y.border(c.y + up) - a.y, a.vy);
         const bool is_x = x <= y;
-        first.time = std::max(is_x ? x : y, since);
-        first.dx = static_cast<std::int8_t>(is_x ? 2 * right - 1 : 0);
-        first.dy = static_cast<std::int8_t>(is_x ? 0 : 2 * up - 1);
+        first.time = std::max(std::min(y, x), since);
+        first.dx = static_cast<std::int8_t>(is_x * (2 * right - 1));
+        first.dy = static_cast<std::int8_t>(!is_x * (2 * up - 1));
     } else {
         consider(time_to_leave(grid.x.border(c.x + 1) - a.x, a.vx, acceleration.x(), since), 1, 0);
         consider(time_to_leave(a.x - grid.x.border(c.x), -a.vx, -acceleration.x(), since), -1, 0);
