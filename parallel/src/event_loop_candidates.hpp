@@ -104,14 +104,46 @@ bool EventLoopOf<A>::gather_beside(std::int32_t low, Candidates& found) const {
     return single < 0;
 }
 
+/// The same at the region's border, which cells are beyond or across.
+template <Acceleration A>
+bool EventLoopOf<A>::gather_at_border(std::uint32_t i, CellCoordinates side, Candidates& found) const {
+    struct Places {
+        std::array<std::int32_t, 3> each = {};
+        int count = 0;
+    };
+    const auto places = [](const RegionAxis& axis, std::int32_t cell, std::int32_t towards) {
+        Places of;
+        for (int k = (towards == 0 ? -1 : towards); k <= (towards == 0 ? 1 : towards); ++k)
+            if (const std::int32_t place = axis.place(cell + k); place >= 0) of.each[of.count++] = place;
+        return of;
+    };
+    const CellCoordinates& cell = records_[i].anchor.cell;
+    const Places columns = places(region_.x, cell.x + locals_[i].frame.x, side.x);
+    const Places rows = places(region_.y, cell.y + locals_[i].frame.y, side.y);
+    std::uint32_t* next = found.ids.data();
+    std::int32_t single = -1;
+    for (int y = 0; y < rows.count; ++y) {
+        for (int x = 0; x < columns.count; ++x) {
+            const CellLists::Block& block =
+                cells_.first_block(rows.each[y] * region_.x.size() + columns.each[x]);
+            std::memcpy(next, block.ids.data(), sizeof(block.ids));
+            next += block.count;
+            single &= block.next;
+        }
+    }
+    found.count = static_cast<std::size_t>(next - found.ids.data());
+    return single < 0;
+}
+
 /// Gathers all that are listed around ball i, in the row of cells on one side or everywhere where the side is
 /// {0, 0}, and looks at them; false where this ball or place needs more care.
 template <Acceleration A>
 bool EventLoopOf<A>::look_beside(std::uint32_t i, CellCoordinates side, Candidates& found) const {
     const std::int32_t place = records_[i].anchor.place;
-    if (!filters_ || !is_inside_[static_cast<std::size_t>(place)] || is_large(i)) return false;
+    if (!filters_ || is_large(i)) return false;
     const std::int32_t row = region_.x.size();
-    const bool is_whole = side.x != 0   ? gather_beside<1, 3>(place + side.x - row, found)
+    const bool is_whole = !is_inside_[static_cast<std::size_t>(place)] ? gather_at_border(i, side, found)
+                          : side.x != 0 ? gather_beside<1, 3>(place + side.x - row, found)
                           : side.y != 0 ? gather_beside<3, 1>(place + side.y * row - 1, found)
                                         : gather_beside<3, 3>(place - row - 1, found);
     if (is_whole) look(i, found);

@@ -106,6 +106,7 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] bool look_beside(std::uint32_t i, CellCoordinates side, Candidates& found) const;
     template <int kWidth, int kHeight>
     bool gather_beside(std::int32_t low, Candidates& found) const;
+    [[gnu::noinline]] bool gather_at_border(std::uint32_t i, CellCoordinates side, Candidates& found) const;
     void sight(std::uint32_t i);
     [[gnu::noinline]] void sight_all();
     template <class F>
