@@ -184,13 +184,13 @@ TEST(EventQueueAgainstASet, GrowsWhileItRuns) {
 // The last key before a year's end, whose day rounds up to one beyond the year: 0 and a median that is the
 // year's length, then two ids with the largest key below it, the second set when the last day is at hand.
 TEST(EventQueueAgainstASet, ATieAtTheEndOfAYear) {
-    constexpr std::uint32_t kCount = 22;  // 11 days, no power of two
+    constexpr std::uint32_t kCount = 22;  // as many days, no power of two
     Random random(12);
     int beyond = 0;
     for (int trial = 0; trial < 1000; ++trial) {
         const double end = random.uniform(1.5, 2);
         const double last = std::nextafter(end, 0);
-        if (last * (kCount / 2 / end) >= kCount / 2) ++beyond;
+        if (last * (kCount / end) >= kCount) ++beyond;
         Checked q(kCount);
         for (std::uint32_t id = 0; id < kCount; ++id) q.put(id, id == 0 ? 0 : id == 7 ? last : end);
         q.queue.rebuild();
@@ -245,10 +245,10 @@ TEST(EventQueue, BeginsWithAYearOfHalfTheKeys) {
             }
 }
 
-// A year brings one event for two entries. Its length follows the last one's number of events, whose scatter
-// of sqrt(500) averages out over a hundred years; the first few years and the guess with which they begin
+// A year brings one event for each entry. Its length follows the last one's number of events, whose scatter
+// of sqrt(1000) averages out over a hundred years; the first few years and the guess with which they begin
 // weigh some per cent.
-TEST(EventQueue, AYearBringsOneEventForTwoEntries) {
+TEST(EventQueue, AYearBringsOneEventForEachEntry) {
     constexpr std::uint32_t kCount = 1000;
     constexpr int kEvents = 100'000;
     for (const double unit : {1e-6, 1.0, 1e6}) {
@@ -265,7 +265,7 @@ TEST(EventQueue, AYearBringsOneEventForTwoEntries) {
             queue.set(id, now + random.uniform(0, unit));
             most = std::max(most, queue.entries());
         }
-        EXPECT_NEAR(static_cast<double>(queue.years()), kEvents / (kCount / 2.0), 20);
+        EXPECT_NEAR(static_cast<double>(queue.years()), kEvents / double(kCount), 10);
         // An id has one entry in the year, and the crowd what is stale as well.
         EXPECT_LE(most, kCount + kCount / 2);
     }

@@ -22,11 +22,12 @@ namespace carom {
 /// A key beyond the year is in no day until its year comes.
 ///
 /// One bit a place tells which are taken, so that the day at hand is the first with a bit set, and a key that
-/// changes is taken out at once, by its bit. What finds its day full goes to a heap, where it is rare. A year
-/// is as long as brings about one event a day, so that a change costs the same however many entries there
-/// are. Whoever changes and takes entries cannot foresee where they lie; so nothing branches on it. Equal
-/// keys share a day or the heap, and of equals the smaller id comes first, so that the order of events is
-/// total.
+/// changes is taken out at once, by its bit. What finds its day full goes to a heap, the crowd, which is
+/// rare. A year has a day for each entry, and is as long as brings about one event a day, so that a change
+/// costs the same however many entries there are. Nothing branches on where entries lie, for that cannot be
+/// foreseen; and the first entry is looked for when the one before it is taken, so that nobody waits for it.
+/// Equal keys share a day or the crowd, and of equals the smaller id comes first, so that the order of events
+/// is total.
 class EventQueue {
  public:
     EventQueue() = default;
@@ -266,7 +267,7 @@ class EventQueue {
     /// Enters what comes next, from the least key on. False when nothing is to come.
     [[gnu::noinline]] bool start_year() {
         ++years_;
-        const std::size_t days = std::max<std::size_t>(slots_.size() / 2, 1);
+        const std::size_t days = std::max<std::size_t>(slots_.size(), 1);
         outside_ = static_cast<std::uint32_t>(days) * kPlaces;
         in_crowd_ = outside_ + 1;
         days_.resize(days + 1);  // one for what is outside
