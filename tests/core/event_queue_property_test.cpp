@@ -199,8 +199,30 @@ TEST(EventQueueAgainstASet, ATieAtTheEndOfAYear) {
         q.check();  // now the last day is at hand
         q.set(3, last);
         ASSERT_NO_FATAL_FAILURE(q.check()) << "year of " << end;
+        q.set(5, 2 * end);  // what lies beyond the year stays there
+        q.set(5, 3 * end);
+        ASSERT_NO_FATAL_FAILURE(q.check()) << "year of " << end;
     }
     EXPECT_GT(beyond, 0);  // else nothing was tried
+}
+
+// Keys that differ are not said to be tied, be they in one day or in the crowd: whoever asks would look at
+// them for nothing.
+TEST(EventQueue, TellsNoTiesWhereThereAreNone) {
+    for (const double far : {0.02, 1e12}) {  // and so the days are short, or long
+        constexpr std::uint32_t kCount = 200;
+        EventQueue queue(kCount);
+        for (std::uint32_t id = 0; id < kCount; ++id)
+            queue.put(id, id < kCount / 4 ? (id * 7 % 50 + 1) / 50.0 : far * (1 + id));
+        queue.rebuild();
+        EXPECT_EQ(queue.crowd() > 0, far > 1);
+        for (std::uint32_t k = 0; k < kCount / 4; ++k) {
+            const EventQueue::Front front = queue.front();
+            ASSERT_EQ(front.key, (k + 1) / 50.0);
+            ASSERT_FALSE(front.may_be_tied);
+            queue.take(front.id);
+        }
+    }
 }
 
 // Three that move among 10^5 that rest, and one: a year costs all of them and must bring many events. The

@@ -60,7 +60,7 @@ class EventQueue {
         clear(std::exchange(slots_[id].place, outside_));
         slots_[id].key = kNever;
         ++events_;
-        is_known_ = is_known_ && id == first_.id && find_near();
+        is_known_ = find_near();
     }
 
     [[nodiscard]] double key(std::uint32_t id) const { return slots_[id].key; }
@@ -123,7 +123,7 @@ class EventQueue {
 
  private:
     static constexpr double kNever = std::numeric_limits<double>::infinity();
-    static constexpr unsigned kPlaces = 4;  // a day
+    constexpr static unsigned kPlaces = 4;  // a day
     static constexpr unsigned kBits = 64;
     struct Slot {
         double key = kNever;
@@ -190,27 +190,16 @@ class EventQueue {
     /// Reads the keys of the day whose places begin at `first`, infinity where none is. No vector is passed
     /// by value: how depends on the instruction set.
     void read(std::size_t first, Keys& keys) const {
-        static constexpr auto kMasks = [] {
-            std::array<std::array<std::int64_t, kPlaces>, 1U << kPlaces> masks = {};
-            for (unsigned bits = 0; bits < masks.size(); ++bits)
-                for (unsigned k = 0; k < kPlaces; ++k) masks[bits][k] = (bits >> k & 1) != 0 ? -1 : 0;
-            return masks;
-        }();
-        Masks mask;
+        const Masks bits = Masks{} + static_cast<std::int64_t>(taken_[first / kBits] >> first % kBits);
         std::memcpy(&keys, days_[first / kPlaces].keys, sizeof(keys));
-        std::memcpy(&mask, kMasks[(taken_[first / kBits] >> first % kBits) % kMasks.size()].data(),
-                    sizeof(mask));
-        keys = mask ? keys : Keys{} + kNever;
+        keys = (bits & Masks{1, 2, 4, 8}) != 0 ? keys : Keys{} + kNever;
     }
     [[nodiscard]] Front least_of_day(std::size_t first) const {
         Keys keys;
         read(first, keys);
-        const Keys crossed = __builtin_shufflevector(keys, keys, 1, 0, 3, 2);
-        const Keys halves = keys < crossed ? keys : crossed;
-        const Keys turned = __builtin_shufflevector(halves, halves, 2, 3, 0, 1);
-        const Keys least = halves < turned ? halves : turned;
-        const unsigned bits = bits_of(keys == least);
-        return {id_at(first + std::size_t(std::countr_zero(bits))), least[0], (bits & (bits - 1)) != 0};
+        const double least = std::min(std::min(keys[0], keys[1]), std::min(keys[2], keys[3]));
+        const unsigned bits = bits_of(keys == Keys{} + least);
+        return {id_at(first + std::size_t(std::countr_zero(bits))), least, (bits & (bits - 1)) != 0};
     }
     /// One bit for each place of that day whose key is `key`.
     [[nodiscard]] unsigned lanes_at(std::size_t first, double key) const {
@@ -272,7 +261,7 @@ class EventQueue {
         in_crowd_ = outside_ + 1;
         days_.resize(days + 1);  // one for what is outside
         ids_.resize(days + 1);
-        taken_.assign(in_crowd_ / kBits + 2, 0);  // the last word is looked at, and never set
+        taken_.assign(in_crowd_ / kBits + 1, 0);
         crowd_.clear();
         crowd_key_ = kNever;
         is_known_ = false;
