@@ -300,12 +300,7 @@ double EventLoopOf<A>::restitution_at(double restitution, std::uint32_t i, std::
 
 template <Acceleration A>
 void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image, const Time& t) {
-    const auto is_swapped = static_cast<std::uint32_t>(records_[j].id < records_[i].id);
-    const std::int32_t sign = 1 - 2 * static_cast<std::int32_t>(is_swapped);
-    image = {sign * image.x, sign * image.y};
-    const std::uint32_t swap = (i ^ j) & -is_swapped;
-    i ^= swap;
-    j ^= swap;
+    put_in_order(i, j, image);
     const Image wrapped_i = advance(i, t);
     const Image wrapped_j = advance(j, t);
     image = {image.x - wrapped_i.x + wrapped_j.x, image.y - wrapped_i.y + wrapped_j.y};

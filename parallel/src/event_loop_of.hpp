@@ -43,6 +43,15 @@ class EventLoopOf final : public EventLoop {
         return {{a.x, a.y}, {a.vx, a.vy}, acceleration_of(i)};
     }
     [[nodiscard]] Vec2 offset_of(const Image& image) const { return bodies_.offset_of(image); }
+    /// The smaller id first. Without a branch, for neither order is to be guessed.
+    void put_in_order(std::uint32_t& i, std::uint32_t& j, Image& image) const {
+        const auto is_swapped = static_cast<std::uint32_t>(records_[j].id < records_[i].id);
+        const std::int32_t sign = 1 - 2 * static_cast<std::int32_t>(is_swapped);
+        image = {sign * image.x, sign * image.y};
+        const std::uint32_t swap = (i ^ j) & -is_swapped;
+        i ^= swap;
+        j ^= swap;
+    }
     /// A side of the domain as a half-plane: how far ball i is inside, and the motion of that gap.
     struct Gap {
         double distance, speed, acceleration;

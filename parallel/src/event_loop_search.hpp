@@ -16,13 +16,7 @@ namespace carom {
 template <Acceleration A>
 Time EventLoopOf<A>::predict_pair(std::uint32_t i, std::uint32_t j, Image image,
                                   [[maybe_unused]] const Time& limit) const {
-    // One order for a pair, whoever asks. Without branches: neither order is to be guessed.
-    const auto is_swapped = static_cast<std::uint32_t>(records_[j].id < records_[i].id);
-    const std::int32_t sign = 1 - 2 * static_cast<std::int32_t>(is_swapped);
-    image = {sign * image.x, sign * image.y};
-    const std::uint32_t swap = (i ^ j) & -is_swapped;
-    i ^= swap;
-    j ^= swap;
+    put_in_order(i, j, image);  // one for a pair, whoever asks
     const Anchor& a = records_[i].anchor;
     const Anchor& b = records_[j].anchor;
     const double from_b = clock_.difference(a.time, b.time);
