@@ -88,20 +88,13 @@ template <Acceleration A>
 template <int kWidth, int kHeight>
 bool EventLoopOf<A>::gather_beside(std::int32_t low, Candidates& found) const {
     const CellLists::Block* row = &cells_.first_block(low);
-    std::uint32_t* next = found.ids.data();
-    std::int32_t single = -1;  // negative as long as no cell has a further block
+    Gathering gathering{found.ids.data()};
 #pragma GCC unroll 3
     for (int y = 0; y < kHeight; ++y, row += region_.x.size()) {
 #pragma GCC unroll 3
-        for (int x = 0; x < kWidth; ++x) {
-            const CellLists::Block& block = row[x];
-            std::memcpy(next, block.ids.data(), sizeof(block.ids));
-            next += block.count;
-            single &= block.next;
-        }
+        for (int x = 0; x < kWidth; ++x) gathering.add(row[x]);
     }
-    found.count = static_cast<std::size_t>(next - found.ids.data());
-    return single < 0;
+    return gathering.finish(found);
 }
 
 /// The same at the region's border, which cells are beyond or across.
@@ -113,26 +106,19 @@ bool EventLoopOf<A>::gather_at_border(std::uint32_t i, CellCoordinates side, Can
     };
     const auto places = [](const RegionAxis& axis, std::int32_t cell, std::int32_t towards) {
         Places of;
-        for (int k = (towards == 0 ? -1 : towards); k <= (towards == 0 ? 1 : towards); ++k)
-            if (const std::int32_t place = axis.place(cell + k); place >= 0) of.each[of.count++] = place;
+        const auto [first, last] = beside(cell, towards, 1);
+        for (std::int32_t k = first; k <= last; ++k)
+            if (const std::int32_t place = axis.place(k); place >= 0) of.each[of.count++] = place;
         return of;
     };
     const CellCoordinates& cell = records_[i].anchor.cell;
     const Places columns = places(region_.x, cell.x + locals_[i].frame.x, side.x);
     const Places rows = places(region_.y, cell.y + locals_[i].frame.y, side.y);
-    std::uint32_t* next = found.ids.data();
-    std::int32_t single = -1;
-    for (int y = 0; y < rows.count; ++y) {
-        for (int x = 0; x < columns.count; ++x) {
-            const CellLists::Block& block =
-                cells_.first_block(rows.each[y] * region_.x.size() + columns.each[x]);
-            std::memcpy(next, block.ids.data(), sizeof(block.ids));
-            next += block.count;
-            single &= block.next;
-        }
-    }
-    found.count = static_cast<std::size_t>(next - found.ids.data());
-    return single < 0;
+    Gathering gathering{found.ids.data()};
+    for (int y = 0; y < rows.count; ++y)
+        for (int x = 0; x < columns.count; ++x)
+            gathering.add(cells_.first_block(rows.each[y] * region_.x.size() + columns.each[x]));
+    return gathering.finish(found);
 }
 
 /// Gathers all that are listed around ball i, in the row of cells on one side or everywhere where the side is
@@ -163,12 +149,8 @@ void EventLoopOf<A>::scan_beside(std::uint32_t i, CellCoordinates side, NextEven
         return !axis.periodic() || 2 * (std::int64_t{reach} + 1) < axis.count();
     };
     const bool filters = filters_ && is_clear(grid.x, found.reach.x) && is_clear(grid.y, found.reach.y);
-    const auto ends = [](std::int32_t cell, std::int32_t towards, std::int32_t reach) {
-        return towards == 0 ? std::pair(cell - reach, cell + reach)
-                            : std::pair(cell + towards * reach, cell + towards * reach);
-    };
-    const auto [first_x, last_x] = ends(a.cell.x, side.x, found.reach.x);
-    const auto [first_y, last_y] = ends(a.cell.y, side.y, found.reach.y);
+    const auto [first_x, last_x] = beside(a.cell.x, side.x, found.reach.x);
+    const auto [first_y, last_y] = beside(a.cell.y, side.y, found.reach.y);
     found.count = 0;
     for_each_place(i, {first_x, first_y}, {last_x, last_y}, [&](std::int32_t at, CellCoordinates cell) {
         cells_.for_each(at, [&](std::uint32_t j) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -113,6 +114,27 @@ class EventLoopOf final : public EventLoop {
     void look(std::uint32_t i, Candidates& found) const;
     void choose(std::uint32_t i, const Candidates& found, NextEvent& best) const;
     [[nodiscard]] bool look_beside(std::uint32_t i, CellCoordinates side, Candidates& found) const;
+    /// The cells of an axis at a distance, on one side or, where that is 0, on both: first and last.
+    [[nodiscard]] static std::pair<std::int32_t, std::int32_t> beside(std::int32_t cell, std::int32_t side,
+                                                                      std::int32_t reach) {
+        return side == 0 ? std::pair(cell - reach, cell + reach)
+                         : std::pair(cell + side * reach, cell + side * reach);
+    }
+    /// The ids of cells' first blocks, one after the other.
+    struct Gathering {
+        std::uint32_t* next;
+        std::int32_t single = -1;  // negative as long as no cell has a further block
+        void add(const CellLists::Block& block) {
+            std::memcpy(next, block.ids.data(), sizeof(block.ids));
+            next += block.count;
+            single &= block.next;
+        }
+        /// Whether that is all.
+        bool finish(Candidates& found) const {
+            found.count = static_cast<std::size_t>(next - found.ids.data());
+            return single < 0;
+        }
+    };
     template <int kWidth, int kHeight>
     bool gather_beside(std::int32_t low, Candidates& found) const;
     [[gnu::noinline]] bool gather_at_border(std::uint32_t i, CellCoordinates side, Candidates& found) const;

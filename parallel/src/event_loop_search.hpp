@@ -20,6 +20,7 @@ Time EventLoopOf<A>::predict_pair(std::uint32_t i, std::uint32_t j, Image image,
     const Anchor& a = records_[i].anchor;
     const Anchor& b = records_[j].anchor;
     const double from_b = clock_.difference(a.time, b.time);
+    // Who is the later cannot be guessed either.
     const std::array<const Time*, 2> times = {&a.time, &b.time};
     const Time& reference = *times[from_b < 0 ? 1 : 0];
     const double since_a = std::max(-from_b, 0.0);

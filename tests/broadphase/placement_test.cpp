@@ -3,12 +3,15 @@
 #include <carom/broadphase/placement.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <span>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,11 +29,32 @@ Scene box_scene(Boundary x, Boundary y, const Vec2& size = Vec2(20, 15)) {
     return scene;
 }
 
-Fill packed(double packing, double radius = 0.5) {
+Fill packed(double packing, double radius_min, double radius_max) {
     Fill fill;
     fill.packing_fraction = packing;
-    fill.radius_min = fill.radius_max = radius;
+    fill.radius_min = radius_min;
+    fill.radius_max = radius_max;
     return fill;
+}
+
+Fill packed(double packing, double radius = 0.5) {
+    return packed(packing, radius, radius);
+}
+
+/// Adds to `counts`, of squares of side 1 in rows of so many, those that the balls of box_scene() are in.
+void count_in_squares(const std::vector<Ball>& balls, std::size_t row, std::span<int> counts) {
+    for (const Ball& ball : balls)
+        ++counts[static_cast<std::size_t>(ball.position.x() + 3) +
+                 row * static_cast<std::size_t>(ball.position.y() - 2)];
+}
+
+/// Of counts that should be equal but for chance.
+double chi_squared_of(std::span<const int> counts) {
+    const double mean =
+        std::accumulate(counts.begin(), counts.end(), 0.0) / static_cast<double>(counts.size());
+    double sum = 0;
+    for (const int k : counts) sum += (k - mean) * (k - mean) / mean;
+    return sum;
 }
 
 Ball ball_at(const Vec2& position, double radius, bool is_static) {
@@ -167,8 +191,7 @@ TEST(Placement, AvoidsWallsStaticBallsAndEarlierFills) {
         for (const double packing : {0.1, 0.2, 0.3}) {
             SCOPED_TRACE(testing::Message() << "packing " << packing);
             Scene scene = crowded_scene(boundary);
-            scene.fills = {packed(packing, 0.3), packed(packing, 0.1)};
-            scene.fills[1].radius_max = 0.2;
+            scene.fills = {packed(packing, 0.3), packed(packing, 0.1, 0.2)};
             const Box region{Vec2(1, 4), Vec2(12, 14)};
             scene.fills[1].region = region;
             check(scene);
@@ -261,12 +284,10 @@ std::uint64_t hash_of(const std::vector<Ball>& balls) {
 
 Scene golden_scene(std::uint64_t seed) {
     Scene scene = crowded_scene(Boundary::kPeriodic);
-    scene.fills = {packed(0.2, 0.15), packed(0.6, 0.07), packed(0.75, 0.05)};
-    scene.fills[0].region = Box{Vec2(-3, 2), Vec2(17, 8)};  // adsorbed
-    scene.fills[0].radius_max = 0.25;
+    scene.fills = {packed(0.2, 0.15, 0.25), packed(0.6, 0.07), packed(0.75, 0.05, 0.12)};
+    scene.fills[0].region = Box{Vec2(-3, 2), Vec2(17, 8)};        // adsorbed
     scene.fills[1].region = Box{Vec2(-1, 9), Vec2(4, 16)};        // among obstacles
     scene.fills[2].region = Box{Vec2(12, 14.5), Vec2(16, 16.5)};  // relaxed
-    scene.fills[2].radius_max = 0.12;
     for (Fill& fill : scene.fills) {
         fill.seed = seed;
         fill.temperature = 2;
@@ -359,11 +380,8 @@ TEST(Placement, AdsorbedDiscsAreSpreadEvenly) {
     fill.count = 20000;
     scene.fills.push_back(fill);
     std::array<int, 100> count{};
-    for (const Ball& ball : place_balls(scene))
-        ++count[static_cast<std::size_t>(ball.position.x() + 3) +
-                10 * static_cast<std::size_t>(ball.position.y() - 2)];
-    double chi_squared = 0;
-    for (const int k : count) chi_squared += (k - 200) * (k - 200) / 200.0;
+    count_in_squares(place_balls(scene), 10, count);
+    const double chi_squared = chi_squared_of(count);
     EXPECT_LT(chi_squared, 99 + 5 * std::sqrt(2 * 99.0));
     EXPECT_GT(chi_squared, 1);  // a lattice would have next to none
 }
@@ -462,7 +480,7 @@ TEST(Placement, AdsorbedDiscsAreThoseOfOneAfterTheOther) {
 TEST(Placement, FewDiscsAreSpreadEvenlyToo) {
     // Counts in 4 x 4 cells over many seeds, as above: chi squared with 15 degrees of freedom at most.
     for (const std::uint64_t count : {1400U, 2600U, 6000U}) {
-        std::array<double, 16> counts{};
+        std::array<int, 16> counts{};
         constexpr int kSeeds = 30;
         for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
             Scene scene = box_scene(Boundary::kPeriodic, Boundary::kPeriodic, Vec2(4, 4));
@@ -470,22 +488,15 @@ TEST(Placement, FewDiscsAreSpreadEvenlyToo) {
             fill.count = count;
             fill.seed = seed;
             scene.fills.push_back(fill);
-            for (const Ball& ball : place_balls(scene))
-                ++counts[static_cast<std::size_t>(ball.position.x() + 3) +
-                         4 * static_cast<std::size_t>(ball.position.y() - 2)];
+            count_in_squares(place_balls(scene), 4, counts);
         }
-        const double mean = static_cast<double>(count) * kSeeds / 16;
-        double chi_squared = 0;
-        for (const double k : counts) chi_squared += (k - mean) * (k - mean) / mean;
-        EXPECT_LT(chi_squared, 15 + 5 * std::sqrt(2 * 15.0)) << count;
+        EXPECT_LT(chi_squared_of(counts), 15 + 5 * std::sqrt(2 * 15.0)) << count;
     }
 }
 
 TEST(Placement, LargeDiscsLieWhereSmallOnesDo) {
     Scene scene = box_scene(Boundary::kPeriodic, Boundary::kPeriodic, Vec2(100, 100));
-    Fill fill = packed(0.4, 0.1);
-    fill.radius_max = 0.5;
-    scene.fills.push_back(fill);
+    scene.fills.push_back(packed(0.4, 0.1, 0.5));
     const std::vector<Ball> balls = place_balls(scene);
     // Correlations of the radius with either coordinate: of independent ones, normal with variance 1 / N.
     const auto count = static_cast<double>(balls.size());
@@ -529,9 +540,7 @@ TEST(Placement, ADiscAsWideAsItsRegionIsPlacedOrRefused) {
 
 TEST(Placement, TheWidestOfAChannelHaveHardlyAnyRoomAcross) {
     Scene scene = box_scene(Boundary::kPeriodic, Boundary::kWall, Vec2(400, 1.25));
-    Fill fill = packed(0.35, 0.3);
-    fill.radius_max = 0.6;
-    scene.fills.push_back(fill);
+    scene.fills.push_back(packed(0.35, 0.3, 0.6));
     const std::vector<Ball> balls = place_balls(scene);
     EXPECT_NEAR(disc_area(balls), 0.35 * 400 * 1.25, std::numbers::pi * 0.6 * 0.6);
     expect_no_overlap(balls, scene);

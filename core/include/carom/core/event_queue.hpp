@@ -114,7 +114,7 @@ class EventQueue {
         if (!is_known_) return;
         const double least = first_.key;
         if (taken_[word_] != 0) {
-            const std::size_t first = first_place(word_);
+            const std::size_t first = first_place();
             for (unsigned tied = lanes_at(first, least); tied != 0; tied &= tied - 1)
                 f(id_at(first + std::size_t(std::countr_zero(tied))));
         }
@@ -183,9 +183,9 @@ class EventQueue {
 
     void clear(std::uint32_t place) { taken_[place / kBits] &= ~(std::uint64_t{1} << place % kBits); }
 
-    /// The first place of the day at hand. Precondition: none is taken before this word, and one in it.
-    [[nodiscard]] std::size_t first_place(std::size_t word) const {
-        return word * kBits + std::size_t(std::countr_zero(taken_[word])) / kPlaces * kPlaces;
+    /// The first place of the day at hand. Precondition: one is taken in `word_`.
+    [[nodiscard]] std::size_t first_place() const {
+        return word_ * kBits + std::size_t(std::countr_zero(taken_[word_])) / kPlaces * kPlaces;
     }
     /// Reads the keys of the day whose places begin at `first`, infinity where none is. No vector is passed
     /// by value: how depends on the instruction set.
@@ -223,7 +223,7 @@ class EventQueue {
     bool find_near() {
         if (taken_[word_] == 0) word_ = std::min(word_ + 1, taken_.size() - 1);
         if (taken_[word_] == 0) return false;
-        first_ = least_of_day(first_place(word_));
+        first_ = least_of_day(first_place());
         return first_.key < crowd_key_;
     }
 
