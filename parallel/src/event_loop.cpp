@@ -11,7 +11,17 @@
 
 namespace carom {
 
-EventLoop::EventLoop(const Bodies& bodies) : bodies_(bodies), clock_(bodies.physics.clock) {}
+EventLoop::EventLoop(const Bodies& bodies) : bodies_(bodies), clock_(bodies.physics.clock) {
+    const auto of_axes = [&grid = bodies.grid](auto&& of) { return twice(of(grid.x), of(grid.y)); };
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    axes_.low = of_axes([](const GridAxis& axis) { return axis.periodic() ? axis.min() : -kInfinity; });
+    axes_.high = of_axes(
+        [](const GridAxis& axis) { return axis.periodic() ? axis.min() + axis.length() : kInfinity; });
+    axes_.min = of_axes([](const GridAxis& axis) { return axis.min(); });
+    axes_.inverse_width = of_axes([](const GridAxis& axis) { return axis.inverse_width(); });
+    axes_.count = of_axes([](const GridAxis& axis) { return double(axis.count()); });
+    axes_.width = of_axes([](const GridAxis& axis) { return axis.width(); });
+}
 
 void EventLoop::clear(const Region& region, const Time& now) {
     region_ = region;
@@ -58,31 +68,29 @@ void EventLoop::forget_window() {
 
 void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end) {
     const auto i = size();
-    records_.emplace_back();
+    records_.push_back(record);
     locals_.emplace_back();
     sights_.add(bodies_.radius.of(record.id));
     if (!bodies_.radius.is_one()) radius_.emplace_back();
     if (bodies_.accelerates_each()) acceleration_.emplace_back();
     if (bodies_.physics.contact_time > 0) last_collision_.emplace_back();
-    seat(i, record, extra, is_owned, end);
+    seat(i, extra, is_owned, end);
 }
 
-/// Gives ball i's place in the loop to a ball, which nothing names yet.
-void EventLoop::seat(std::uint32_t i, const BallRecord& record, const BallExtra* extra, bool is_owned,
-                     const Time& end) {
+/// Makes place i the home of the ball whose record is there, which nothing names yet.
+void EventLoop::seat(std::uint32_t i, const BallExtra* extra, bool is_owned, const Time& end) {
     BallRecord& r = records_[i];
-    r = record;
     r.next.local = kNowhere;
     Local& local = locals_[i];
     local = {};
     local.owned = is_owned ? 1 : 0;
     local.frame = region_.frame_of(r.anchor.cell);
     local.end = clock_.since_epoch(end, epoch_);
-    if (!radius_.empty()) radius_[i] = bodies_.radius.of(record.id);
+    if (!radius_.empty()) radius_[i] = bodies_.radius.of(r.id);
     if (!acceleration_.empty()) acceleration_[i] = extra->acceleration;
     if (!last_collision_.empty()) last_collision_[i] = extra->last_collision;
     r.anchor.place = place_of(i, r.anchor.cell);
-    if (!bodies_.large.empty() && std::ranges::binary_search(bodies_.large, record.id))
+    if (!bodies_.large.empty() && std::ranges::binary_search(bodies_.large, r.id))
         large_.push_back(i);
     else
         cells_.insert(r.anchor.place, i);
@@ -96,10 +104,7 @@ void EventLoop::forget_anchors() {
 /// Enters all balls into the queue.
 void EventLoop::begin() {
     queue_.reset(size());
-    for (std::uint32_t i = 0; i < size(); ++i) {
-        locals_[i].asleep = 0;
-        queue_.put(i, key_of(i));
-    }
+    for (std::uint32_t i = 0; i < size(); ++i) queue_.put(i, key_of(i));
     queue_.rebuild();
 }
 
@@ -150,7 +155,8 @@ std::uint32_t EventLoopOf<A>::enter(const BallRecord& record, const BallExtra& e
         i = free_.back();
         free_.pop_back();
         sights_.replace(i, bodies_.radius.of(record.id));
-        seat(i, record, &extra, is_owned, end);
+        records_[i] = record;
+        seat(i, &extra, is_owned, end);
     }
     if (filters_) sight(i);
     schedule(i);
@@ -159,8 +165,6 @@ std::uint32_t EventLoopOf<A>::enter(const BallRecord& record, const BallExtra& e
 
 template <Acceleration A>
 void EventLoopOf<A>::remove(std::uint32_t i) {
-    wake_partner(i);
-    locals_[i].asleep = 0;
     locals_[i].end = -std::numeric_limits<double>::infinity();
     reschedule(i);
     cells_.remove(records_[i].anchor.place, i);
@@ -168,19 +172,10 @@ void EventLoopOf<A>::remove(std::uint32_t i) {
     free_.push_back(i);
 }
 
-/// Until when a copy is simulated. A partner that relies on its event might lose it by that.
-template <Acceleration A>
-void EventLoopOf<A>::set_end(std::uint32_t i, const Time& end) {
-    const double since = clock_.since_epoch(end, epoch_);
-    if (since == locals_[i].end) return;
-    wake_partner(i);
-    locals_[i].end = since;
-}
-
 template <Acceleration A>
 void EventLoopOf<A>::hand_over(std::uint32_t i, const Time& end) {
     locals_[i].owned = 0;
-    set_end(i, end);
+    locals_[i].end = clock_.since_epoch(end, epoch_);
     reschedule(i);
 }
 
@@ -195,24 +190,22 @@ void EventLoopOf<A>::renew(std::uint32_t i, const BallRecord& record, const Ball
         return std::tuple(e.time, e.partner, e.stamp, e.image_x, e.image_y);
     };
     if (flight(r.anchor) != flight(record.anchor)) {  // the copy went another way
-        wake_partner(i);
         cells_.remove(r.anchor.place, i);
-        seat(i, record, &extra, is_owned, end);
+        r = record;
+        seat(i, &extra, is_owned, end);
         if (filters_) sight(i);
         schedule(i);
         return;
     }
     locals_[i].owned = is_owned ? 1 : 0;
-    set_end(i, end);
+    locals_[i].end = clock_.since_epoch(end, epoch_);
     if (!last_collision_.empty()) last_collision_[i] = extra.last_collision;
     r.crossing_time = record.crossing_time;
     r.crossing_dx = record.crossing_dx;
     r.crossing_dy = record.crossing_dy;
     if (event(r.next) != event(record.next)) {
-        wake_partner(i);
         r.next = record.next;
         r.next.local = kNowhere;
-        locals_[i].asleep = 0;
     }
     reschedule(i);
 }

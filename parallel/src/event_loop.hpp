@@ -216,8 +216,7 @@ class EventLoop {
     [[nodiscard]] std::uint64_t load() const { return kLoadOfCollision * collisions_of_all + turns_; }
     void begin();
     void forget_window();
-    void seat(std::uint32_t i, const BallRecord& record, const BallExtra* extra, bool is_owned,
-              const Time& end);
+    void seat(std::uint32_t i, const BallExtra* extra, bool is_owned, const Time& end);
     void touch(const CellCoordinates& cell);
     [[nodiscard]] double radius_of(std::uint32_t i) const {
         return bodies_.radius.is_one() ? bodies_.radius.of(0) : radius_[i];
@@ -229,16 +228,14 @@ class EventLoop {
 
     /// When ball i's entry in the queue comes up, since the start of the epoch.
     [[nodiscard]] double key_of(std::uint32_t i) const {
-        const double key = locals_[i].asleep ? records_[i].crossing_time
-                                             : std::min(clock_.since_epoch(records_[i].next.time, epoch_),
-                                                        records_[i].crossing_time);
+        const double key =
+            std::min(clock_.since_epoch(records_[i].next.time, epoch_), records_[i].crossing_time);
         return key <= locals_[i].end ? key : std::numeric_limits<double>::infinity();
     }
     void schedule(std::uint32_t i) { queue_.set(i, key_of(i)); }
     /// Whether that entry is for leaving its cell, and not for its next event.
     [[nodiscard]] bool crosses_first(std::uint32_t i) const {
-        return locals_[i].asleep ||
-               records_[i].crossing_time <= clock_.since_epoch(records_[i].next.time, epoch_);
+        return records_[i].crossing_time <= clock_.since_epoch(records_[i].next.time, epoch_);
     }
 
     const Bodies& bodies_;
@@ -247,7 +244,13 @@ class EventLoop {
     CellLists cells_;
     EventQueue queue_;
     Sights sights_;
-    bool filters_ = false;                 // whether sights are used
+    bool filters_ = false;  // whether sights are used
+    // The grid's axes as two balls side by side see them, x and y twice.
+    struct Axes {
+        Doubles low, high;  // where a place need not be wrapped
+        Doubles min, inverse_width, count, width;
+    };
+    Axes axes_;
     std::vector<std::uint8_t> is_inside_;  // one a place: whether the cells beside it lie beside it there too
 
     // One a ball, in the order of add(): what only this loop needs of it.
@@ -258,7 +261,6 @@ class EventLoop {
         CellCoordinates frame;                        // from the anchor's frame to the region's
         std::uint32_t last_overwritten = kNowhere;
         std::uint8_t owned = 1;
-        std::uint8_t asleep = 0;  // its next event is its partner's as well, and in the queue there
     };
     std::vector<BallRecord> records_;
     std::vector<Local> locals_;

@@ -82,19 +82,57 @@ void EventLoopOf<A>::for_each_place(std::uint32_t i, CellCoordinates first, Cell
     }
 }
 
-/// Gathers the balls of some of the cells around ball i's without a branch; false where one of them holds
-/// more than one block of ids. Precondition: the ball is deep inside the region.
+/// Adds the balls of a cell but ball i; false where they are too many.
 template <Acceleration A>
-template <int kWidth, int kHeight>
-bool EventLoopOf<A>::gather_beside(std::int32_t low, Candidates& found) const {
-    const CellLists::Block* row = &cells_.first_block(low);
-    Gathering gathering{found.ids.data()};
-#pragma GCC unroll 3
-    for (int y = 0; y < kHeight; ++y, row += region_.x.size()) {
-#pragma GCC unroll 3
-        for (int x = 0; x < kWidth; ++x) gathering.add(row[x]);
+bool EventLoopOf<A>::gather_cell(std::uint32_t i, std::int32_t place, Candidates& found) const {
+    for (const CellLists::Block* block = &cells_.first_block(place); block != nullptr;
+         block = cells_.next(*block)) {
+        if (found.count + CellLists::kBlockSize > kMostCandidates) return false;
+        for (std::uint32_t k = 0; k < block->count(); ++k) {
+            found.ids[found.count] = block->ids[k];
+            found.count += block->ids[k] != i ? 1 : 0;
+        }
     }
-    return gathering.finish(found);
+    return true;
+}
+
+/// The balls but ball i of some rows of three cells, `step` and `row` places apart.
+template <Acceleration A>
+bool EventLoopOf<A>::gather_more(std::uint32_t i, std::int32_t low, std::int32_t step, std::int32_t row,
+                                 int rows, Candidates& found) const {
+    found.count = 0;
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < 3; ++x)
+            if (!gather_cell(i, low + y * row + x * step, found)) return false;
+    return true;
+}
+
+/// Gathers the balls of the cells around ball i and of its own, without a branch as long as each holds one
+/// block of ids; false where they are too many. Precondition: the ball is deep inside the region.
+template <Acceleration A>
+bool EventLoopOf<A>::gather_around(std::uint32_t i, Candidates& found) const {
+    const std::int32_t row = region_.x.size();
+    const std::int32_t low = records_[i].anchor.place - row - 1;
+    const CellLists::Block* first = &cells_.first_block(low);
+    Gathering gathering{found.ids.data()};
+#pragma GCC unroll 9
+    for (int k = 0; k < 9; ++k)
+        if (k != 4) gathering.add(first[(k / 3) * row + k % 3]);
+    gathering.add_all_but(i, first[row + 1]);
+    gathering.finish(found);
+    return gathering.is_all() || gather_more(i, low, 1, row, 3, found);
+}
+
+/// The same for a row of three cells, `step` places apart, beside ball i's.
+template <Acceleration A>
+bool EventLoopOf<A>::gather_row(std::int32_t middle, std::int32_t step, Candidates& found) const {
+    const CellLists::Block* block = &cells_.first_block(middle);
+    Gathering gathering{found.ids.data()};
+    gathering.add(block[-step]);
+    gathering.add(block[0]);
+    gathering.add(block[step]);
+    gathering.finish(found);
+    return gathering.is_all() || gather_more(kNowhere, middle - step, step, 0, 1, found);
 }
 
 /// The same at the region's border, which cells are beyond or across.
@@ -114,11 +152,20 @@ bool EventLoopOf<A>::gather_at_border(std::uint32_t i, CellCoordinates side, Can
     const CellCoordinates& cell = records_[i].anchor.cell;
     const Places columns = places(region_.x, cell.x + locals_[i].frame.x, side.x);
     const Places rows = places(region_.y, cell.y + locals_[i].frame.y, side.y);
+    const std::int32_t own = records_[i].anchor.place;
     Gathering gathering{found.ids.data()};
     for (int y = 0; y < rows.count; ++y)
         for (int x = 0; x < columns.count; ++x)
-            gathering.add(cells_.first_block(rows.each[y] * region_.x.size() + columns.each[x]));
-    return gathering.finish(found);
+            if (const std::int32_t place = rows.each[y] * region_.x.size() + columns.each[x]; place != own)
+                gathering.add(cells_.first_block(place));
+    if ((side.x | side.y) == 0) gathering.add_all_but(i, cells_.first_block(own));
+    gathering.finish(found);
+    if (gathering.is_all()) return true;
+    found.count = 0;
+    for (int y = 0; y < rows.count; ++y)
+        for (int x = 0; x < columns.count; ++x)
+            if (!gather_cell(i, rows.each[y] * region_.x.size() + columns.each[x], found)) return false;
+    return true;
 }
 
 /// Gathers all that are listed around ball i, in the row of cells on one side or everywhere where the side is
@@ -128,10 +175,10 @@ bool EventLoopOf<A>::look_beside(std::uint32_t i, CellCoordinates side, Candidat
     const std::int32_t place = records_[i].anchor.place;
     if (!filters_ || is_large(i)) return false;
     const std::int32_t row = region_.x.size();
+    const bool is_row = (side.x | side.y) != 0;
     const bool is_whole = !is_inside_[static_cast<std::size_t>(place)] ? gather_at_border(i, side, found)
-                          : side.x != 0 ? gather_beside<1, 3>(place + side.x - row, found)
-                          : side.y != 0 ? gather_beside<3, 1>(place + side.y * row - 1, found)
-                                        : gather_beside<3, 3>(place - row - 1, found);
+                          : is_row ? gather_row(place + side.x + side.y * row, side.x != 0 ? row : 1, found)
+                                   : gather_around(i, found);
     if (is_whole) look(i, found);
     return is_whole;
 }

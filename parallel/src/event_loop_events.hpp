@@ -11,6 +11,7 @@
 #include <carom/core/wall_time.hpp>
 
 #include "event_loop_of.hpp"
+#include "event_loop_pair.hpp"
 #include "fault.hpp"
 
 namespace carom {
@@ -69,8 +70,10 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
             }
             refuse_wedged(i);
         }
-        if (first.may_be_tied) i = first_of_ties();
+        if (!are_plainly_first(first)) [[unlikely]]
+            i = first_of_ties();
         queue_.take(i);
+        fetch_own(queue_.coming_later());
         fetch_pair(queue_.coming());
         ++turns_;
         events += locals_[i].owned;
@@ -88,6 +91,21 @@ void EventLoopOf<A>::make_room(double end) {
     if (full_) return;
     pass_on_notes();
     on_part({epoch_, end});
+}
+
+/// Whether the queue's front is one event: of one ball, or of two that meet each other, and in no later tie.
+template <Acceleration A>
+bool EventLoopOf<A>::are_plainly_first(const EventQueue::Front& first) const {
+    const auto meets = [this, key = first.key](std::uint32_t i, std::uint32_t j) {
+        const BallRecord& r = records_[i];
+        return static_cast<unsigned>(r.next.local == j) & static_cast<unsigned>(r.next.time.offset == key) &
+               static_cast<unsigned>(r.next.time.epoch == epoch_) &
+               static_cast<unsigned>(r.crossing_time > key);
+    };
+    // Whether two balls know of their event or one cannot be foreseen, so nothing branches on it.
+    const unsigned is_one = first.id == first.other;
+    const unsigned is_pair = meets(first.id, first.other) & meets(first.other, first.id);
+    return (is_one | is_pair) > static_cast<unsigned>(first.may_be_more);
 }
 
 /// Several events share this instant: lets the smaller id of each pair know of its event, so that who holds
@@ -279,15 +297,6 @@ void EventLoopOf<A>::relist(std::uint32_t i, CellCoordinates cell) {
     }
 }
 
-/// Centre i less centre j's image, both anchored at one time; the same bits as the prediction's, computed
-/// from the smaller id.
-template <Acceleration A>
-Vec2 EventLoopOf<A>::centres_offset(std::uint32_t i, std::uint32_t j, Image image) const {
-    if (records_[j].id < records_[i].id) return -centres_offset(j, i, -image);
-    return Vec2(records_[i].anchor.x, records_[i].anchor.y) -
-           Vec2(records_[j].anchor.x, records_[j].anchor.y) - offset_of(image);
-}
-
 /// The TC model: a body that has collided a moment ago loses nothing. `j` == i where the other body has no
 /// past.
 template <Acceleration A>
@@ -301,14 +310,23 @@ double EventLoopOf<A>::restitution_at(double restitution, std::uint32_t i, std::
 template <Acceleration A>
 void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image, const Time& t) {
     put_in_order(i, j, image);
-    const Image wrapped_i = advance(i, t);
-    const Image wrapped_j = advance(j, t);
-    image = {image.x - wrapped_i.x + wrapped_j.x, image.y - wrapped_i.y + wrapped_j.y};
-    Anchor& a = records_[i].anchor;
-    Anchor& b = records_[j].anchor;
-    const Vec2 va = {a.vx, a.vy};
-    const Vec2 vb = {b.vx, b.vy};
-    const Vec2 r = centres_offset(i, j, image);
+    Pair pair = pair_at(i, j, t);
+    const bool plain = A != Acceleration::kPerBall && is_plain(pair);
+    if (plain) {
+        keep_anchor(i);
+        keep_anchor(j);
+    } else {
+        const Image wrapped_i = advance(i, t);
+        const Image wrapped_j = advance(j, t);
+        image = {image.x - wrapped_i.x + wrapped_j.x, image.y - wrapped_i.y + wrapped_j.y};
+        const Anchor& a = records_[i].anchor;
+        const Anchor& b = records_[j].anchor;
+        pair = {Doubles{a.x, a.y, b.x, b.y}, Doubles{a.vx, a.vy, b.vx, b.vy}};
+    }
+    const Vec2 va = {pair.velocity[0], pair.velocity[1]};
+    const Vec2 vb = {pair.velocity[2], pair.velocity[3]};
+    // Centre i less centre j's image, the same bits as the prediction's.
+    const Vec2 r = Vec2(pair.place[0], pair.place[1]) - Vec2(pair.place[2], pair.place[3]) - offset_of(image);
     const double restitution =
         restitution_at(bodies_.restitution_between(records_[i].id, records_[j].id), i, j, t) *
         (is_active(Fault::kEnergyGain) ? 1 + 1e-6 : 1);
@@ -323,23 +341,19 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     double impulse = 0;  // along the unit normal
     const PairVelocities<double> after = collide(va, vb, r, mass_i, mass_j, restitution, separation, &impulse,
                                                  [this](const Vec2& v) { return bodies_.held_velocity(v); });
-    a.vx = after.a.x();
-    a.vy = after.a.y();
-    b.vx = after.b.x();
-    b.vy = after.b.y();
+    pair.velocity = Doubles{after.a.x(), after.a.y(), after.b.x(), after.b.y()};
+    anchor_pair(i, j, pair, t);
     remember(i, t, records_[j].id);
     remember(j, t, records_[i].id);
     const double distance = std::sqrt(length_squared(r));
     ++collisions_of_all;
     if (is_owned(i)) {
         const double approach = -dot<double>(va - vb, r) / distance;
-        note(t, i, records_[j].id, b.stamp, {r / distance, impulse, approach, impulse * distance});
+        note(t, i, records_[j].id, records_[j].anchor.stamp,
+             {r / distance, impulse, approach, impulse * distance});
     }
     if (bodies_.physics.contact_time > 0) last_collision_[i] = last_collision_[j] = t;
-    settle(i);
-    settle(j);
-    predict_crossing(i);
-    predict_crossing(j);
+    settle_pair(i, j, pair, t);
     // Both look before one chooses: neither waits for the other's arithmetic.
     Candidates around_i, around_j;
     const bool has_looked_i = look_beside(i, {0, 0}, around_i);

@@ -100,8 +100,7 @@ class EventLoopOf final : public EventLoop {
     [[gnu::noinline]] void scan_each_large(std::uint32_t i, NextEvent& best) const;
     void scan_listed(std::uint32_t i, NextEvent& best) const;
     [[gnu::noinline]] void scan_beside(std::uint32_t i, CellCoordinates side, NextEvent& best) const;
-    static constexpr std::size_t kMostCandidates =
-        std::size_t{9} * CellLists::kBlockSize;  // that are looked at together
+    static constexpr std::size_t kMostCandidates = std::size_t{9} * 6;  // that are looked at together
     struct Candidates {
         std::size_t count = 0;
         CellCoordinates reach{1, 1};  // how many cells away they may be
@@ -123,21 +122,31 @@ class EventLoopOf final : public EventLoop {
     /// The ids of cells' first blocks, one after the other.
     struct Gathering {
         std::uint32_t* next;
-        std::int32_t single = -1;  // negative as long as no cell has a further block
+        std::uint32_t links = 0;  // whether a cell has a further block
         void add(const CellLists::Block& block) {
-            std::memcpy(next, block.ids.data(), sizeof(block.ids));
-            next += block.count;
-            single &= block.next;
+            std::memcpy(next, &block, sizeof(block));
+            next += block.count();
+            links |= block.link;
         }
-        /// Whether that is all.
-        bool finish(Candidates& found) const {
+        /// All but one of them. Precondition: it is in the block, or the cell has a further one.
+        void add_all_but(std::uint32_t i, const CellLists::Block& block) {
+            const std::uint32_t last = block.ids[block.count() - 1];
+            for (std::uint32_t k = 0; k < CellLists::kBlockSize; ++k)
+                next[k] = block.ids[k] == i ? last : block.ids[k];
+            next += block.count() - 1;
+            links |= block.link;
+        }
+        [[nodiscard]] bool is_all() const { return links <= CellLists::kBlockSize; }
+        void finish(Candidates& found) const {
             found.count = static_cast<std::size_t>(next - found.ids.data());
-            return single < 0;
         }
     };
-    template <int kWidth, int kHeight>
-    bool gather_beside(std::int32_t low, Candidates& found) const;
+    bool gather_around(std::uint32_t i, Candidates& found) const;
+    bool gather_row(std::int32_t middle, std::int32_t step, Candidates& found) const;
     [[gnu::noinline]] bool gather_at_border(std::uint32_t i, CellCoordinates side, Candidates& found) const;
+    [[nodiscard]] bool gather_cell(std::uint32_t i, std::int32_t place, Candidates& found) const;
+    [[gnu::noinline]] bool gather_more(std::uint32_t i, std::int32_t low, std::int32_t step, std::int32_t row,
+                                       int rows, Candidates& found) const;
     void sight(std::uint32_t i);
     [[gnu::noinline]] void sight_all();
     template <class F>
@@ -158,11 +167,22 @@ class EventLoopOf final : public EventLoop {
         __builtin_prefetch(&records_[i].anchor);
         __builtin_prefetch(&records_[i].next);
     }
+    /// Of one that will have an event.
+    void fetch_own(std::uint32_t i) const {
+        fetch(i);
+        queue_.fetch(i);
+        __builtin_prefetch(&locals_[i]);
+    }
     /// That of its partner too, ahead of its event.
     void fetch_pair(std::uint32_t i) const {
-        fetch(i);
-        const std::uint32_t j = records_[i].next.local;
-        fetch(j == kNowhere ? i : j);
+        fetch_own(i);
+        const std::uint32_t partner = records_[i].next.local;
+        fetch_own(partner & -std::uint32_t{partner != kNowhere});
+        const std::int32_t place = records_[i].anchor.place;
+        const std::int32_t row = region_.x.size();
+        cells_.fetch(place);
+        cells_.fetch(std::max(place - row, 0));
+        cells_.fetch(std::min(place + row, region_.size() - 1));
     }
     /// Whether an event's partner, looked for here, is still the one that it was predicted for.
     [[nodiscard]] bool is_current(const NextEvent& event) const {
@@ -172,8 +192,6 @@ class EventLoopOf final : public EventLoop {
     void reschedule(std::uint32_t i) {
         if (const double key = key_of(i); key != queue_.key(i)) queue_.set(i, key);
     }
-    void set_end(std::uint32_t i, const Time& end);
-    void wake_partner(std::uint32_t i);
     [[gnu::noinline]] void lose(std::uint32_t i);
     [[gnu::noinline]] void tell_lower(std::uint32_t i);
     void relist(std::uint32_t i, CellCoordinates cell);
@@ -185,6 +203,7 @@ class EventLoopOf final : public EventLoop {
     // kept out of it ([[gnu::noinline]]), for compilers do not know which is which.
     [[gnu::flatten]] void run_until(double end, bool inclusive);
     void start_next_epoch(std::int64_t epoch);
+    [[nodiscard]] bool are_plainly_first(const EventQueue::Front& first) const;
     [[nodiscard, gnu::noinline]] std::uint32_t first_of_ties();
     [[nodiscard]] std::uint64_t most_events_at_once() const {
         return (is_patient ? 2'000'000 : 10'000) + 64 * std::uint64_t{size()};
@@ -200,8 +219,16 @@ class EventLoopOf final : public EventLoop {
     [[gnu::noinline, gnu::flatten]] void collide_obstacle(std::uint32_t i, const NextEvent& event);
     void keep_anchor(std::uint32_t i);
     Image advance(std::uint32_t i, const Time& t);
+    // Two balls of an event side by side, where that is plain; see event_loop_pair.hpp.
+    struct Pair {
+        Doubles place, velocity;
+    };
+    [[nodiscard]] Pair pair_at(std::uint32_t i, std::uint32_t j, const Time& t) const;
+    [[nodiscard]] bool is_plain(const Pair& pair) const;
+    void anchor_pair(std::uint32_t i, std::uint32_t j, const Pair& pair, const Time& t);
+    void settle_pair(std::uint32_t i, std::uint32_t j, const Pair& pair, const Time& t);
+    void predict_crossings(std::uint32_t i, std::uint32_t j, const Pair& pair, const Doubles& cells);
     void settle(std::uint32_t i);
-    [[nodiscard]] Vec2 centres_offset(std::uint32_t i, std::uint32_t j, Image image) const;
     [[nodiscard]] double restitution_at(double restitution, std::uint32_t i, std::uint32_t j,
                                         const Time& t) const;
     void note(const Time& t, std::uint32_t i, std::uint32_t partner, std::uint32_t partner_stamp,

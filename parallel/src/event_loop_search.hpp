@@ -244,41 +244,18 @@ NextEvent EventLoopOf<A>::search_among(std::uint32_t i, const Candidates& found,
 }
 
 /// Enters ball i's next event. Its partner is not told: of two balls that meet next, the one that was
-/// predicted last knows. Where both do, this one sleeps until the other wakes it.
+/// predicted last knows. Where both do, either's entry will do.
 template <Acceleration A>
 void EventLoopOf<A>::expect(std::uint32_t i, const NextEvent& event) {
-    wake_partner(i);
     records_[i].next = event;
-    locals_[i].asleep = 0;
-    if (const std::uint32_t j = event.local; j != kNowhere) {
-        NextEvent& theirs = records_[j].next;
-        if (theirs.partner == records_[i].id && theirs.time == event.time && !locals_[j].asleep &&
-            theirs.stamp == records_[i].anchor.stamp && theirs.image_x == -event.image_x &&
-            theirs.image_y == -event.image_y && clock_.since_epoch(event.time, epoch_) <= locals_[j].end &&
-            !(simultaneous_ && records_[i].id < records_[j].id)) {
-            theirs.local = i;
-            locals_[i].asleep = 1;
-        }
-    }
     schedule(i);
     if (simultaneous_) tell_lower(i);
-}
-
-/// Ball i's event is about to be dropped: a partner that relies on it looks after itself again.
-template <Acceleration A>
-void EventLoopOf<A>::wake_partner(std::uint32_t i) {
-    const std::uint32_t j = records_[i].next.local;
-    if (j == kNowhere || !locals_[j].asleep || records_[j].next.local != i) return;
-    locals_[j].asleep = 0;
-    schedule(j);
 }
 
 /// What ball i does from now on cannot be known here.
 template <Acceleration A>
 void EventLoopOf<A>::lose(std::uint32_t i) {
     if (is_owned(i)) failed_ = true;
-    wake_partner(i);
-    locals_[i].asleep = 0;
     locals_[i].end = -std::numeric_limits<double>::infinity();
     schedule(i);
 }
@@ -290,13 +267,8 @@ void EventLoopOf<A>::tell_lower(std::uint32_t i) {
     const auto tell = [this, i](std::uint32_t j, const NextEvent& event) {
         const NextEvent theirs{event.time,     records_[i].id, records_[i].anchor.stamp,
                                -event.image_x, -event.image_y, i};
-        if (precedes(theirs, records_[j].next, j)) {
-            wake_partner(j);
-            records_[j].next = theirs;
-        } else if (!locals_[j].asleep || records_[j].next.local != i) {
-            return;
-        }
-        locals_[j].asleep = 0;
+        if (!precedes(theirs, records_[j].next, j)) return;
+        records_[j].next = theirs;
         schedule(j);
     };
     const auto tell_if_now = [this, &tell](std::uint32_t j, const NextEvent& event) {

@@ -1,5 +1,5 @@
-// Eight floats side by side, by the compilers' vector extension: plain arithmetic that every instruction set
-// rounds alike.
+// Eight floats or four doubles side by side, by the compilers' vector extension: plain arithmetic that every
+// instruction set rounds alike.
 #pragma once
 
 #include <bit>
@@ -19,6 +19,24 @@ using Floats __attribute__((vector_size(kLanes * sizeof(float)))) = float;
 using FloatMasks __attribute__((vector_size(kLanes * sizeof(float)))) = std::int32_t;
 using Indices __attribute__((vector_size(kLanes * sizeof(float)))) = std::uint32_t;
 using FourFloats __attribute__((vector_size(4 * sizeof(float)))) = float;
+
+/// x and y of one ball, then of another.
+using Doubles __attribute__((vector_size(4 * sizeof(double)))) = double;
+using DoubleMasks __attribute__((vector_size(4 * sizeof(double)))) = std::int64_t;
+using FourIntegers __attribute__((vector_size(4 * sizeof(std::int32_t)))) = std::int32_t;
+
+/// The same for both balls.
+[[nodiscard]] inline Doubles twice(double x, double y) {
+    return Doubles{x, y, x, y};
+}
+
+[[nodiscard]] inline bool all_of(const DoubleMasks& masks) {
+#ifdef __AVX__
+    return _mm256_movemask_pd(std::bit_cast<__m256d>(masks)) == 15;
+#else
+    return (masks[0] & masks[1] & masks[2] & masks[3]) != 0;
+#endif
+}
 
 /// One bit a lane: whether its mask is set.
 [[nodiscard]] inline unsigned bits_of(const FloatMasks& masks) {

@@ -32,6 +32,7 @@ void Sights::clear(const Bodies& bodies, const Region& region) {
     };
     choose_period(region.x, cell_x_, period_x_, turns_x_);
     choose_period(region.y, cell_y_, period_y_, turns_y_);
+    is_periodic_ = period_x_ > 0 || period_y_ > 0;
     has_one_radius_ = bodies.radius.is_one();
     diameter_ = static_cast<float>(2 * bodies.radius.of(0) * per_unit_);
 

@@ -56,7 +56,27 @@ class Sights {
         const auto vy = static_cast<float>((a.vy + since * acceleration.y()) * per_speed_);
         const FourFloats row = {x, y, vx, vy};
         std::memcpy(&rows_[i], &row, sizeof(row));  // at once, as it is read
-        if (!(std::abs(x) + std::abs(y) <= farthest_ && std::abs(vx) + std::abs(vy) <= farthest_)) hide(i);
+        if (!is_seen(row)) hide(i);
+    }
+
+    /// Balls i and j, both `since` before time() at these places and velocities; `frames` lead to the
+    /// region's.
+    void set_both(std::uint32_t i, std::uint32_t j, const Doubles& place, const Doubles& velocity,
+                  double since, const FourIntegers& frames, const Vec2& acceleration) {
+        const Doubles pull = twice(acceleration.x(), acceleration.y());
+        const Doubles shift =
+            __builtin_convertvector(frames, Doubles) * twice(cell_x_, cell_y_) - twice(middle_x_, middle_y_);
+        const Doubles then = place + since * (velocity + since / 2 * pull);
+        const FourFloats places = __builtin_convertvector(then * per_unit_ + shift, FourFloats);
+        const FourFloats speeds = __builtin_convertvector((velocity + since * pull) * per_speed_, FourFloats);
+        const FourFloats row_i = __builtin_shufflevector(places, speeds, 0, 1, 4, 5);
+        const FourFloats row_j = __builtin_shufflevector(places, speeds, 2, 3, 6, 7);
+        std::memcpy(&rows_[i], &row_i, sizeof(row_i));
+        std::memcpy(&rows_[j], &row_j, sizeof(row_j));
+        if (!is_seen(row_i)) [[unlikely]]
+            hide(i);
+        if (!is_seen(row_j)) [[unlikely]]
+            hide(j);
     }
 
     /// For ball i among eight others: times, in spans from `now` on, before which it certainly does not meet
@@ -73,6 +93,11 @@ class Sights {
     };
     static constexpr double kFlight = 16;
 
+    /// Whether neither place nor velocity is too far from zero.
+    [[nodiscard]] bool is_seen(const FourFloats& row) const {
+        return std::abs(row[0]) + std::abs(row[1]) <= farthest_ &&
+               std::abs(row[2]) + std::abs(row[3]) <= farthest_;
+    }
     void hide(std::uint32_t i) {
         rows_[i].x = std::numeric_limits<float>::quiet_NaN();
         ++too_fast_;
@@ -86,6 +111,7 @@ class Sights {
     float doubtful_speed_squared_ = 0;
     float period_x_ = 0, period_y_ = 0;  // 0 where the region holds each place once
     float turns_x_ = 0, turns_y_ = 0;    // 1 / period
+    bool is_periodic_ = false;
     double per_unit_ = 1, per_span_ = 1, per_speed_ = 1;
     double cell_x_ = 1, cell_y_ = 1;
     double middle_x_ = 0, middle_y_ = 0;
@@ -118,8 +144,10 @@ inline Floats Sights::bounds(std::uint32_t i, const std::uint32_t* others, doubl
     const Floats vy = own.vy - other.vy;
     Floats x = (own.x - other.x) + vx * t;
     Floats y = (own.y - other.y) + vy * t;
-    x -= period_x_ * ((x * turns_x_ + kRound) - kRound);
-    y -= period_y_ * ((y * turns_y_ + kRound) - kRound);
+    if (is_periodic_) {
+        x -= period_x_ * ((x * turns_x_ + kRound) - kRound);
+        y -= period_y_ * ((y * turns_y_ + kRound) - kRound);
+    }
     const Floats distance_squared = x * x + y * y;
     const Floats speed_squared = vx * vx + vy * vy;
     const Floats sum_squared = sum * sum;

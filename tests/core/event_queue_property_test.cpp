@@ -59,8 +59,10 @@ class Checked {
         ASSERT_EQ(queue.first(), first());
         const auto second = std::next(order_.begin());
         const bool is_tied = second != order_.end() && second->first == least();
-        ASSERT_TRUE(front.may_be_tied || !is_tied);
         if (!is_tied) return;
+        ASSERT_TRUE(front.other != front.id || front.may_be_more);
+        const auto third = std::next(second);
+        ASSERT_TRUE(front.may_be_more || third == order_.end() || third->first > least());
         std::set<std::uint32_t> told;
         queue.for_each_first([&](std::uint32_t id) { ASSERT_TRUE(told.insert(id).second); });
         std::uint32_t last = 0;
@@ -219,7 +221,8 @@ TEST(EventQueue, TellsNoTiesWhereThereAreNone) {
         for (std::uint32_t k = 0; k < kCount / 4; ++k) {
             const EventQueue::Front front = queue.front();
             ASSERT_EQ(front.key, (k + 1) / 50.0);
-            ASSERT_FALSE(front.may_be_tied);
+            ASSERT_EQ(front.other, front.id);
+            ASSERT_FALSE(front.may_be_more);
             queue.take(front.id);
         }
     }

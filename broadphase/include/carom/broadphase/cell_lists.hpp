@@ -13,12 +13,18 @@ namespace carom {
 /// blocks.
 class CellLists {
  public:
-    static constexpr std::int32_t kBlockSize = 6;
-    /// Half a cache line of ids: the first `count` are in the cell, more are in the block `next`, if >= 0.
-    struct Block {
-        std::int32_t count = 0;
-        std::int32_t next = -1;
+    static constexpr std::uint32_t kBlockSize = 3;
+    /// A quarter of a cache line: ids of the cell, in no order.
+    struct alignas(16) Block {
         std::array<std::uint32_t, kBlockSize> ids = {};
+        std::uint32_t link = 0;  ///< how many there are, and where the cell's next block is
+
+        [[nodiscard]] std::uint32_t count() const { return link % (kBlockSize + 1); }
+        [[nodiscard]] bool has_next() const { return link > kBlockSize; }
+        /// The next block's place. Precondition: there is one.
+        [[nodiscard]] std::int32_t next() const {
+            return static_cast<std::int32_t>(link / (kBlockSize + 1)) - 1;
+        }
     };
 
     CellLists() = default;
@@ -31,22 +37,24 @@ class CellLists {
     }
 
     void insert(std::int32_t cell, std::uint32_t id) {
-        if (blocks_[cell].count == kBlockSize) {
+        if (blocks_[cell].count() == kBlockSize) {
             const std::int32_t full = take_block();
             blocks_[full] = blocks_[cell];
-            blocks_[cell] = Block{0, full, {}};
+            blocks_[cell] = Block{{}, static_cast<std::uint32_t>(full + 1) * (kBlockSize + 1)};
         }
         Block& target = blocks_[cell];
-        target.ids[target.count++] = id;
+        target.ids[target.count()] = id;
+        ++target.link;
     }
 
     /// Precondition: `id` is in `cell`.
     void remove(std::int32_t cell, std::uint32_t id) {
         Block& first = blocks_[cell];
         std::uint32_t* place = find(cell, id);
-        *place = first.ids[--first.count];
-        if (first.count == 0 && first.next >= 0) {
-            const std::int32_t spare = first.next;
+        --first.link;
+        *place = first.ids[first.count()];
+        if (first.count() == 0 && first.has_next()) {
+            const std::int32_t spare = first.next();
             first = blocks_[spare];
             free_.push_back(spare);
         }
@@ -55,16 +63,22 @@ class CellLists {
     /// Calls f(id) for every id in the cell.
     template <class F>
     void for_each(std::int32_t cell, F&& f) const {
-        for (std::int32_t b = cell; b >= 0; b = blocks_[b].next)
-            for (std::int32_t k = 0; k < blocks_[b].count; ++k) f(blocks_[b].ids[k]);
+        for (const Block* b = &blocks_[cell]; b != nullptr; b = next(*b))
+            for (std::uint32_t k = 0; k < b->count(); ++k) f(b->ids[k]);
     }
 
+    /// Asks for the memory of a cell's list ahead of its use.
+    void fetch(std::int32_t cell) const { __builtin_prefetch(&blocks_[cell]); }
     [[nodiscard]] const Block& first_block(std::int32_t cell) const { return blocks_[cell]; }
+    /// The block after one; nullptr after the last.
+    [[nodiscard]] const Block* next(const Block& block) const {
+        return block.has_next() ? &blocks_[block.next()] : nullptr;
+    }
 
  private:
     std::uint32_t* find(std::int32_t cell, std::uint32_t id) {
-        for (std::int32_t b = cell;; b = blocks_[b].next)
-            for (std::int32_t k = 0; k < blocks_[b].count; ++k)
+        for (std::int32_t b = cell;; b = blocks_[b].next())
+            for (std::uint32_t k = 0; k < blocks_[b].count(); ++k)
                 if (blocks_[b].ids[k] == id) return &blocks_[b].ids[k];
     }
 

@@ -37,6 +37,7 @@ class GridAxis {
     [[nodiscard]] double min() const { return min_; }
     [[nodiscard]] double length() const { return length_; }
     [[nodiscard]] double width() const { return width_; }
+    [[nodiscard]] double inverse_width() const { return inverse_; }
 
     /// The cell coordinate of x.
     [[nodiscard]] std::int32_t coordinate(double x) const {

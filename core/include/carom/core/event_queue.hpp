@@ -76,7 +76,7 @@ class EventQueue {
     [[nodiscard]] std::uint32_t first(Rank&& rank) {
         const Front least = front();
         std::uint32_t best = least.id;
-        if (least.may_be_tied) {
+        if (least.other != least.id || least.may_be_more) {
             for_each_first([&](std::uint32_t id) {
                 if (rank(id) < rank(best)) best = id;
             });
@@ -84,9 +84,10 @@ class EventQueue {
         return best;
     }
     struct Front {
-        std::uint32_t id = 0;  ///< any where nothing is to come
+        std::uint32_t id = 0;     ///< any where nothing is to come
+        std::uint32_t other = 0;  ///< another one that had the key when it was looked for; else the same
         double key = std::numeric_limits<double>::infinity();
-        bool may_be_tied = false;  ///< set where more ids than one may have the key, and always where they do
+        bool may_be_more = false;  ///< set where yet others may have the key, and always where they do
     };
     /// An id with the least key.
     [[nodiscard]] Front front() {
@@ -96,6 +97,18 @@ class EventQueue {
     }
     /// What the next front() will give, but for what is set before; any where that is not known.
     [[nodiscard]] std::uint32_t coming() const { return first_.id; }
+
+    /// One of the next day with entries after that one's; any where none is near.
+    [[nodiscard]] std::uint32_t coming_later() const {
+        constexpr std::uint64_t kOne = 1;
+        const std::uint64_t word = taken_[word_];
+        const unsigned day = static_cast<unsigned>(std::countr_zero(word | kOne)) / kPlaces * kPlaces;
+        const std::uint64_t rest = word & ~(((kOne << kPlaces) - 1) << day);
+        const auto place = static_cast<unsigned>(std::countr_zero(rest != 0 ? rest : kOne));
+        return id_at(word_ * kBits + place) & -std::uint32_t{rest != 0};
+    }
+    /// Asks for the memory of an entry ahead of its use.
+    void fetch(std::uint32_t id) const { __builtin_prefetch(&slots_[id]); }
 
     /// Years begun, each of which costs all entries.
     [[nodiscard]] std::uint64_t years() const { return years_; }
@@ -199,7 +212,10 @@ class EventQueue {
         read(first, keys);
         const double least = std::min(std::min(keys[0], keys[1]), std::min(keys[2], keys[3]));
         const unsigned bits = bits_of(keys == Keys{} + least);
-        return {id_at(first + std::size_t(std::countr_zero(bits))), least, (bits & (bits - 1)) != 0};
+        const unsigned others = bits & (bits - 1);
+        const auto lane = std::size_t(std::countr_zero(bits));
+        const auto other = std::size_t(std::countr_zero(others != 0 ? others : bits));
+        return {id_at(first + lane), id_at(first + other), least, (others & (others - 1)) != 0};
     }
     /// One bit for each place of that day whose key is `key`.
     [[nodiscard]] unsigned lanes_at(std::size_t first, double key) const {
@@ -244,7 +260,8 @@ class EventQueue {
                 const auto is_next = [this](std::size_t k) {
                     return k < crowd_.size() && crowd_[k].key == crowd_key_;
                 };
-                first_ = {crowd_.front().id, crowd_key_, day_key == crowd_key_ || is_next(1) || is_next(2)};
+                const std::uint32_t id = crowd_.front().id;
+                first_ = {id, id, crowd_key_, day_key == crowd_key_ || is_next(1) || is_next(2)};
                 return;
             }
             first_ = {};
