@@ -11,12 +11,13 @@
 
 namespace carom {
 
-/// A ball's state at its last event, and where the grid has it now. One cache line.
+/// A ball's state at its last event, and where the grid has it now: all of it that others' predictions read,
+/// in one cache line.
 struct alignas(64) Anchor {
     double x, y, vx, vy;
     Time time;
     std::uint32_t stamp = 0;  ///< counts the ball's events
-    std::int32_t place = 0;   ///< of `cell` in the region that holds the ball now
+    std::uint32_t id = 0;     ///< the ball's
     CellCoordinates cell;     ///< in the frame of the anchor's position: unfolded
 };
 
@@ -62,10 +63,12 @@ struct BallRecord {
     Anchor anchor;
     NextEvent next;
     double crossing_time = 0;
-    std::uint32_t id = 0;
+    std::int32_t place = 0;  ///< of the anchor's cell in the region that holds the ball now
     std::int8_t crossing_dx = 0;
     std::int8_t crossing_dy = 0;
     Periods periods;
+
+    [[nodiscard]] std::uint32_t id() const { return anchor.id; }
 };
 
 static_assert(sizeof(BallRecord) == 128);

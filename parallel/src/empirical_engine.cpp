@@ -28,18 +28,18 @@ EmpiricalEngine::EmpiricalEngine(const Bodies& bodies, const EngineStart& start,
     for (std::size_t k = 0; k < start.records.size(); ++k) {
         const BallRecord& record = start.records[k];
         if (record.anchor.time != now_) throw SnapshotError("holds balls at different times");
-        slot_of_[record.id] = static_cast<std::uint32_t>(id_.size());
-        id_.push_back(record.id);
+        slot_of_[record.id()] = static_cast<std::uint32_t>(id_.size());
+        id_.push_back(record.id());
         x_.push_back(record.anchor.x);
         y_.push_back(record.anchor.y);
         vx_.push_back(record.anchor.vx);
         vy_.push_back(record.anchor.vy);
         periods_.push_back(record.periods);
-        if (!bodies.radius.is_one()) radius_.push_back(bodies.radius.of(record.id));
+        if (!bodies.radius.is_one()) radius_.push_back(bodies.radius.of(record.id()));
         if (bodies.physics.contact_time > 0) last_collision_.push_back(start.extras[k].last_collision);
         if (bodies.accelerates_each()) acceleration_.push_back(start.extras[k].acceleration);
         if (!bodies.large.empty())
-            is_large_.push_back(std::ranges::binary_search(bodies.large, record.id) ? 1 : 0);
+            is_large_.push_back(std::ranges::binary_search(bodies.large, record.id()) ? 1 : 0);
     }
     for (const std::uint32_t id : bodies.large) large_.push_back(slot_of_[id]);
     wrapped_x_.resize(size());

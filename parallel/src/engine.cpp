@@ -74,7 +74,7 @@ class SerialEngine final : public Engine {
         executor_.for_ranges(loop_->size(), 4096, [&](std::size_t first, std::size_t last) {
             for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
                 const BallRecord& r = loop_->records()[i];
-                saver.save(r.id, r.anchor, r.periods, loop_->extra(i));
+                saver.save(r.id(), r.anchor, r.periods, loop_->extra(i));
             }
         });
     }

@@ -54,8 +54,7 @@ EngineStart start_at_zero(const Bodies& bodies, std::span<const Ball> balls) {
         BallRecord& r = start.records.emplace_back();
         const Vec2 x = bodies.held_position(b.position, r.periods);
         const Vec2 v = bodies.held_velocity(b.velocity);
-        r.anchor = {x.x(), x.y(), v.x(), v.y(), {}, 0, 0, bodies.grid.coordinates(x)};
-        r.id = i;
+        r.anchor = {x.x(), x.y(), v.x(), v.y(), {}, 0, i, bodies.grid.coordinates(x)};
     }
     if (bodies.needs_extras()) start.extras.resize(start.records.size());
     return start;
@@ -73,7 +72,7 @@ EngineStart start_from(const Bodies& bodies, const Snapshot& s, const Executor& 
     if (bodies.needs_extras()) start.extras.resize(s.anchors.size());
     std::size_t rank = 0;
     for (std::uint32_t i = 0; i < bodies.count; ++i)
-        if (!bodies.fixes(i)) start.records[rank++].id = i;
+        if (!bodies.fixes(i)) start.records[rank++].anchor.id = i;
 
     std::atomic<bool> is_whole = true;
     executor.for_ranges(start.records.size(), 4096, [&](std::size_t first, std::size_t last) {
@@ -87,7 +86,8 @@ EngineStart start_from(const Bodies& bodies, const Snapshot& s, const Executor& 
             BallRecord& r = start.records[k];
             const CellCoordinates cell = cell_at(bodies, a, acceleration, start.now);
             if (!is_sound(cell)) is_whole = false;
-            r.anchor = {a.position.x(), a.position.y(), a.velocity.x(), a.velocity.y(), a.time, 0, 0, cell};
+            r.anchor = {
+                a.position.x(), a.position.y(), a.velocity.x(), a.velocity.y(), a.time, 0, r.id(), cell};
             r.periods = {a.periods_x, a.periods_y};
             if (!s.accelerations.empty()) start.extras[k].acceleration = acceleration;
             if (s.last_collisions.empty() || is_active(Fault::kForgottenHit)) continue;

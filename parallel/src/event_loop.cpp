@@ -70,7 +70,7 @@ void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_ow
     const auto i = size();
     records_.push_back(record);
     locals_.emplace_back();
-    sights_.add(bodies_.radius.of(record.id));
+    sights_.add(bodies_.radius.of(record.id()));
     if (!bodies_.radius.is_one()) radius_.emplace_back();
     if (bodies_.accelerates_each()) acceleration_.emplace_back();
     if (bodies_.physics.contact_time > 0) last_collision_.emplace_back();
@@ -86,14 +86,14 @@ void EventLoop::seat(std::uint32_t i, const BallExtra* extra, bool is_owned, con
     local.owned = is_owned ? 1 : 0;
     local.frame = region_.frame_of(r.anchor.cell);
     local.end = clock_.since_epoch(end, epoch_);
-    if (!radius_.empty()) radius_[i] = bodies_.radius.of(r.id);
+    if (!radius_.empty()) radius_[i] = bodies_.radius.of(r.id());
     if (!acceleration_.empty()) acceleration_[i] = extra->acceleration;
     if (!last_collision_.empty()) last_collision_[i] = extra->last_collision;
-    r.anchor.place = place_of(i, r.anchor.cell);
-    if (!bodies_.large.empty() && std::ranges::binary_search(bodies_.large, r.id))
+    r.place = place_of(i, r.anchor.cell);
+    if (!bodies_.large.empty() && std::ranges::binary_search(bodies_.large, r.id()))
         large_.push_back(i);
     else
-        cells_.insert(r.anchor.place, i);
+        cells_.insert(r.place, i);
 }
 
 void EventLoop::forget_anchors() {
@@ -154,7 +154,7 @@ std::uint32_t EventLoopOf<A>::enter(const BallRecord& record, const BallExtra& e
     } else {
         i = free_.back();
         free_.pop_back();
-        sights_.replace(i, bodies_.radius.of(record.id));
+        sights_.replace(i, bodies_.radius.of(record.id()));
         records_[i] = record;
         seat(i, &extra, is_owned, end);
     }
@@ -167,8 +167,8 @@ template <Acceleration A>
 void EventLoopOf<A>::remove(std::uint32_t i) {
     locals_[i].end = -std::numeric_limits<double>::infinity();
     reschedule(i);
-    cells_.remove(records_[i].anchor.place, i);
-    records_[i].id = kNowhere;
+    cells_.remove(records_[i].place, i);
+    records_[i].anchor.id = kNowhere;
     free_.push_back(i);
 }
 
@@ -190,7 +190,7 @@ void EventLoopOf<A>::renew(std::uint32_t i, const BallRecord& record, const Ball
         return std::tuple(e.time, e.partner, e.stamp, e.image_x, e.image_y);
     };
     if (flight(r.anchor) != flight(record.anchor)) {  // the copy went another way
-        cells_.remove(r.anchor.place, i);
+        cells_.remove(r.place, i);
         r = record;
         seat(i, &extra, is_owned, end);
         if (filters_) sight(i);
@@ -219,7 +219,7 @@ void EventLoopOf<A>::renew_field(const Time& t) {
             settle(i);
             events += locals_[i].owned;
             acceleration_[i] =
-                bodies_.acceleration_at(records_[i].id, {records_[i].anchor.x, records_[i].anchor.y});
+                bodies_.acceleration_at(records_[i].id(), {records_[i].anchor.x, records_[i].anchor.y});
         }
     }
 }
@@ -233,7 +233,7 @@ void EventLoopOf<A>::start_anew(const Time& t, std::span<const NewStart> starts)
         carom::start_anew(bodies_, r.anchor, r.periods, acceleration_of(i), t, start);
         locals_[i].frame = region_.frame_of(r.anchor.cell);
         if constexpr (A == Acceleration::kPerBall)
-            acceleration_[i] = bodies_.acceleration_at(r.id, {r.anchor.x, r.anchor.y});
+            acceleration_[i] = bodies_.acceleration_at(r.id(), {r.anchor.x, r.anchor.y});
         settle(i);
         predict_crossing(i);
     }
@@ -245,7 +245,7 @@ template <Acceleration A>
 void EventLoopOf<A>::audit(std::vector<Violation>& found) const {
     for (std::uint32_t i = 0; i < size(); ++i) {
         const auto report_fault = [this, &found, i](const std::string& what) {
-            found.push_back({bodies_.ball_name(records_[i].id) + ": " + what});
+            found.push_back({bodies_.ball_name(records_[i].id()) + ": " + what});
         };
         const Anchor& a = records_[i].anchor;
         if (!std::isfinite(a.x + a.y + a.vx + a.vy)) report_fault("state is not finite");
@@ -253,7 +253,7 @@ void EventLoopOf<A>::audit(std::vector<Violation>& found) const {
         if (queue_.key(i) < now_) report_fault("next event lies in the past");
         bool listed = false;
         cells_.for_each(place_of(i, a.cell), [&](std::uint32_t j) { listed = listed || j == i; });
-        if (listed == is_large(i) || a.place != place_of(i, a.cell))
+        if (listed == is_large(i) || records_[i].place != place_of(i, a.cell))
             report_fault("is not listed in its cell");
         const NextEvent best = search(i);
         const bool partner_knows = best.local != kNowhere && records_[best.local].next.time <= best.time;
@@ -297,7 +297,7 @@ void start_anew(const Bodies& bodies, Anchor& anchor, Periods& periods, const Ve
     if (start.position) place = bodies.held_position(*start.position, periods);
     const Vec2 velocity = bodies.held_velocity(start.velocity ? *start.velocity : velocity_at(way, since));
     anchor = {place.x(), place.y(),    velocity.x(), velocity.y(),
-              t,         anchor.stamp, anchor.place, bodies.grid.coordinates(place)};
+              t,         anchor.stamp, anchor.id, bodies.grid.coordinates(place)};
 }
 
 Motion<double> motion_since(const Bodies& bodies, const Anchor& anchor, const Vec2& acceleration) {

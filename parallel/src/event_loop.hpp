@@ -133,7 +133,7 @@ class EventLoop {
 
     /// Balls i and j may be each the other's partner: then i need not look for it.
     void suggest_partner(std::uint32_t i, std::uint32_t j) {
-        if (records_[i].next.partner == records_[j].id) records_[i].next.local = j;
+        if (records_[i].next.partner == records_[j].id()) records_[i].next.local = j;
     }
     /// Takes the balls' next events as they are, and finds those that are not known.
     virtual void start() = 0;
@@ -153,7 +153,7 @@ class EventLoop {
 
     // ---- Reading.
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(records_.size()); }
-    [[nodiscard]] std::uint32_t id(std::uint32_t i) const { return records_[i].id; }
+    [[nodiscard]] std::uint32_t id(std::uint32_t i) const { return records_[i].id(); }
     [[nodiscard]] std::span<const BallRecord> records() const { return records_; }
     /// The anchor of ball i that was overwritten last: index into `overwritten`.
     [[nodiscard]] std::uint32_t last_overwritten(std::uint32_t i) const {

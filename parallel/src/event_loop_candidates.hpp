@@ -112,7 +112,7 @@ bool EventLoopOf<A>::gather_more(std::uint32_t i, std::int32_t low, std::int32_t
 template <Acceleration A>
 bool EventLoopOf<A>::gather_around(std::uint32_t i, Candidates& found) const {
     const std::int32_t row = region_.x.size();
-    const std::int32_t low = records_[i].anchor.place - row - 1;
+    const std::int32_t low = records_[i].place - row - 1;
     const CellLists::Block* first = &cells_.first_block(low);
     Gathering gathering{found.ids.data()};
 #pragma GCC unroll 9
@@ -152,7 +152,7 @@ bool EventLoopOf<A>::gather_at_border(std::uint32_t i, CellCoordinates side, Can
     const CellCoordinates& cell = records_[i].anchor.cell;
     const Places columns = places(region_.x, cell.x + locals_[i].frame.x, side.x);
     const Places rows = places(region_.y, cell.y + locals_[i].frame.y, side.y);
-    const std::int32_t own = records_[i].anchor.place;
+    const std::int32_t own = records_[i].place;
     Gathering gathering{found.ids.data()};
     for (int y = 0; y < rows.count; ++y)
         for (int x = 0; x < columns.count; ++x)
@@ -172,7 +172,7 @@ bool EventLoopOf<A>::gather_at_border(std::uint32_t i, CellCoordinates side, Can
 /// {0, 0}, and looks at them; false where this ball or place needs more care.
 template <Acceleration A>
 bool EventLoopOf<A>::look_beside(std::uint32_t i, CellCoordinates side, Candidates& found) const {
-    const std::int32_t place = records_[i].anchor.place;
+    const std::int32_t place = records_[i].place;
     if (!filters_ || is_large(i)) return false;
     const std::int32_t row = region_.x.size();
     const bool is_row = (side.x | side.y) != 0;

@@ -113,7 +113,7 @@ bool EventLoopOf<A>::are_plainly_first(const EventQueue::Front& first) const {
 template <Acceleration A>
 std::uint32_t EventLoopOf<A>::first_of_ties() {
     const auto rank = [this](std::uint32_t b) {
-        const std::uint32_t id = records_[b].id;
+        const std::uint32_t id = records_[b].id();
         return std::tuple(in_order(id, crosses_first(b) ? id : records_[b].next.partner), id);
     };
     if (!simultaneous_) {
@@ -122,7 +122,7 @@ std::uint32_t EventLoopOf<A>::first_of_ties() {
         const auto is_one_pair = [this] {
             const NextEvent& a = records_[tied_[0]].next;
             const NextEvent& b = records_[tied_[1]].next;
-            return a.partner == records_[tied_[1]].id && b.partner == records_[tied_[0]].id &&
+            return a.partner == records_[tied_[1]].id() && b.partner == records_[tied_[0]].id() &&
                    a.time == b.time;
         };
         if (tied_.size() > 2 || (tied_.size() == 2 && !is_one_pair())) {
@@ -152,7 +152,7 @@ void EventLoopOf<A>::pass_on_notes() {
 template <Acceleration A>
 void EventLoopOf<A>::refuse_wedged(std::uint32_t i) const {
     std::ostringstream what;
-    what << bodies_.ball_name(records_[i].id) << ": is wedged: more than " << most_events_at_once()
+    what << bodies_.ball_name(records_[i].id()) << ": is wedged: more than " << most_events_at_once()
          << " events at time " << clock_.to_seconds(time_now())
          << " (it has no room to move, or loses energy without a contact_time)";
     throw std::runtime_error(what.str());
@@ -178,7 +178,7 @@ void EventLoopOf<A>::cross(std::uint32_t i) {
     const Crossing crossing{records_[i].crossing_time, records_[i].crossing_dx, records_[i].crossing_dy};
     relist(i, {a.cell.x + crossing.dx, a.cell.y + crossing.dy});
     if (std::max(std::abs(a.cell.x), std::abs(a.cell.y)) >= GridAxis::kFarthest)
-        throw std::runtime_error(bodies_.ball_name(records_[i].id) +
+        throw std::runtime_error(bodies_.ball_name(records_[i].id()) +
                                  ": flies more than a thousand million cells without an event");
     NextEvent best = records_[i].next;
     const CellCoordinates side{crossing.dx, crossing.dy};  // from where others come into view
@@ -225,7 +225,7 @@ std::uint32_t EventLoopOf<A>::find_beside(std::uint32_t i, std::uint32_t id, boo
     for_each_place(i, {c.x - 1, c.y - 1}, {c.x + 1, c.y + 1}, [&](std::int32_t place, CellCoordinates) {
         ++cells;
         cells_.for_each(place, [&](std::uint32_t j) {
-            if (records_[j].id == id) found = j;
+            if (records_[j].id() == id) found = j;
         });
     });
     is_inside = cells == 9;
@@ -281,12 +281,12 @@ void EventLoopOf<A>::relist(std::uint32_t i, CellCoordinates cell) {
     const std::int32_t place = place_of(i, cell);
     if (place < 0) return lose(i);
     a.cell = cell;
-    if (place == a.place) return;
+    if (place == records_[i].place) return;
     if (!is_large(i)) {
-        cells_.remove(a.place, i);
+        cells_.remove(records_[i].place, i);
         cells_.insert(place, i);
     }
-    a.place = place;
+    records_[i].place = place;
     if (!keeps_window) return;
     const CellCoordinates here{cell.x + locals_[i].frame.x, cell.y + locals_[i].frame.y};
     if (is_owned(i)) {
@@ -328,11 +328,11 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     // Centre i less centre j's image, the same bits as the prediction's.
     const Vec2 r = Vec2(pair.place[0], pair.place[1]) - Vec2(pair.place[2], pair.place[3]) - offset_of(image);
     const double restitution =
-        restitution_at(bodies_.restitution_between(records_[i].id, records_[j].id), i, j, t) *
+        restitution_at(bodies_.restitution_between(records_[i].id(), records_[j].id()), i, j, t) *
         (is_active(Fault::kEnergyGain) ? 1 + 1e-6 : 1);
     const bool swaps = is_active(Fault::kSwappedMasses);
-    const double mass_i = bodies_.mass.of(records_[swaps ? j : i].id);
-    const double mass_j = bodies_.mass.of(records_[swaps ? i : j].id);
+    const double mass_i = bodies_.mass.of(records_[swaps ? j : i].id());
+    const double mass_j = bodies_.mass.of(records_[swaps ? i : j].id());
     // NOLINTNEXTLINE(misc-const-correctness): not where there is an acceleration
     double pressure = 0;  // -f'' / 2 of the squared distance f: positive where the pair is pressed together
     if constexpr (A == Acceleration::kPerBall)
@@ -343,13 +343,13 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
                                                  [this](const Vec2& v) { return bodies_.held_velocity(v); });
     pair.velocity = Doubles{after.a.x(), after.a.y(), after.b.x(), after.b.y()};
     anchor_pair(i, j, pair, t);
-    remember(i, t, records_[j].id);
-    remember(j, t, records_[i].id);
+    remember(i, t, records_[j].id());
+    remember(j, t, records_[i].id());
     const double distance = std::sqrt(length_squared(r));
     ++collisions_of_all;
     if (is_owned(i)) {
         const double approach = -dot<double>(va - vb, r) / distance;
-        note(t, i, records_[j].id, records_[j].anchor.stamp,
+        note(t, i, records_[j].id(), records_[j].anchor.stamp,
              {r / distance, impulse, approach, impulse * distance});
     }
     if (bodies_.physics.contact_time > 0) last_collision_[i] = last_collision_[j] = t;
@@ -372,7 +372,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     if (is_ball) {
         const Vec2 centre = {a.x, a.y};
         const Vec2& fixed = bodies_.fixed[event.partner];
-        if (event.partner < records_[i].id)
+        if (event.partner < records_[i].id())
             normal = -(fixed - centre - offset_of(-image));
         else
             normal = centre - fixed - offset_of(image);
@@ -385,7 +385,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
         normal = Vec2::Zero();
         normal[side.axis] = side.upper ? -1 : 1;
     }
-    const double restitution = bodies_.restitution_between(records_[i].id, event.partner);
+    const double restitution = bodies_.restitution_between(records_[i].id(), event.partner);
     const bool lasts = restitution_at(0, i, i, event.time) == 1;  // then nothing is lost, by no rule
     const double lasting = lasts ? 1 : restitution;
     const Vec2 before = {a.vx, a.vy};
@@ -404,7 +404,7 @@ void EventLoopOf<A>::collide_obstacle(std::uint32_t i, const NextEvent& event) {
     a.vx = after.x();
     a.vy = after.y();
     remember(i, event.time, event.partner);
-    const double impulse = bodies_.mass.of(records_[i].id) * dot<double>(after - before, normal) / length;
+    const double impulse = bodies_.mass.of(records_[i].id()) * dot<double>(after - before, normal) / length;
     ++collisions_of_all;
     if (is_owned(i)) {
         const double approach = -dot(before, normal) / length;
@@ -438,14 +438,14 @@ void EventLoopOf<A>::note(const Time& t, std::uint32_t i, std::uint32_t partner,
                           const Hit& hit) {
     CollisionNote& n = notes.emplace_back();
     n.time = t;
-    n.lower = records_[i].id;
+    n.lower = records_[i].id();
     n.higher = partner;
     n.lower_stamp = records_[i].anchor.stamp;
     n.higher_stamp = partner_stamp;
     n.is_wall = partner >= bodies_.count;
     n.virial = hit.virial;
     if (listens) {
-        collisions.push_back(collision_of(bodies_, clock_.to_seconds(t), records_[i].id, partner,
+        collisions.push_back(collision_of(bodies_, clock_.to_seconds(t), records_[i].id(), partner,
                                           {records_[i].anchor.x, records_[i].anchor.y}, hit));
     }
     constexpr std::size_t kBatch = 1024;

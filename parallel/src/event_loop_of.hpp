@@ -46,7 +46,7 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] Vec2 offset_of(const Image& image) const { return bodies_.offset_of(image); }
     /// The smaller id first. Without a branch, for neither order is to be guessed.
     void put_in_order(std::uint32_t& i, std::uint32_t& j, Image& image) const {
-        const auto is_swapped = static_cast<std::uint32_t>(records_[j].id < records_[i].id);
+        const auto is_swapped = static_cast<std::uint32_t>(records_[j].id() < records_[i].id());
         const std::int32_t sign = 1 - 2 * static_cast<std::int32_t>(is_swapped);
         image = {sign * image.x, sign * image.y};
         const std::uint32_t swap = (i ^ j) & -is_swapped;
@@ -178,7 +178,7 @@ class EventLoopOf final : public EventLoop {
         fetch_own(i);
         const std::uint32_t partner = records_[i].next.local;
         fetch_own(partner & -std::uint32_t{partner != kNowhere});
-        const std::int32_t place = records_[i].anchor.place;
+        const std::int32_t place = records_[i].place;
         const std::int32_t row = region_.x.size();
         cells_.fetch(place);
         cells_.fetch(std::max(place - row, 0));
@@ -187,7 +187,7 @@ class EventLoopOf final : public EventLoop {
     /// Whether an event's partner, looked for here, is still the one that it was predicted for.
     [[nodiscard]] bool is_current(const NextEvent& event) const {
         const BallRecord& partner = records_[event.local];
-        return partner.anchor.stamp == event.stamp && partner.id == event.partner;
+        return partner.anchor.stamp == event.stamp && partner.id() == event.partner;
     }
     void reschedule(std::uint32_t i) {
         if (const double key = key_of(i); key != queue_.key(i)) queue_.set(i, key);

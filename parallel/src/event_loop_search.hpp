@@ -62,7 +62,7 @@ Time EventLoopOf<A>::predict_fixed(std::uint32_t i, std::uint32_t id, Image imag
     Vec2 r = m.position - bodies_.fixed[id] - offset_of(image);
     Vec2 v = m.velocity;
     Vec2 acceleration = m.acceleration;
-    if (id < records_[i].id) {
+    if (id < records_[i].id()) {
         r = bodies_.fixed[id] - m.position - offset_of(-image);
         v = -v;
         acceleration = -acceleration;
@@ -116,7 +116,7 @@ template <Acceleration A>
 bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint32_t i) const {
     if (a.time != b.time) return a.time < b.time;
     if (a.time == kNever) return false;
-    const auto key = [id = records_[i].id](const NextEvent& e) {
+    const auto key = [id = records_[i].id()](const NextEvent& e) {
         const int sign = e.partner < id ? -1 : 1;  // the image as seen from the smaller id
         return std::tuple(in_order(id, e.partner), sign * e.image_x, sign * e.image_y);
     };
@@ -127,10 +127,10 @@ bool EventLoopOf<A>::precedes(const NextEvent& a, const NextEvent& b, std::uint3
 /// Predicts ball i against ball j and keeps the better event.
 template <Acceleration A>
 void EventLoopOf<A>::consider(std::uint32_t i, std::uint32_t j, Image image, NextEvent& best) const {
-    if (!bodies_.may_meet(records_[i].id, records_[j].id)) return;
+    if (!bodies_.may_meet(records_[i].id(), records_[j].id())) return;
     const Time t = predict_pair(i, j, image, best.time);
     if (best.time < t) return;
-    const NextEvent event{t, records_[j].id, records_[j].anchor.stamp, image.x, image.y, j};
+    const NextEvent event{t, records_[j].id(), records_[j].anchor.stamp, image.x, image.y, j};
     if (t < best.time || precedes(event, best, i)) best = event;
 }
 
@@ -214,7 +214,7 @@ void EventLoopOf<A>::scan_each_obstacle(std::uint32_t i, NextEvent& best) const 
     const ObstacleMap& obstacles = large ? bodies_.obstacles_of_large : bodies_.obstacles;
     if (!obstacles.empty()) {
         for (const ObstacleEntry& entry : obstacles.at(grid.index(a.cell)))
-            if (bodies_.may_meet(records_[i].id, entry.id))
+            if (bodies_.may_meet(records_[i].id(), entry.id))
                 consider(predict_obstacle(
                     i, entry.id,
                     {grid.x.turns(a.cell.x) + entry.shift_x, grid.y.turns(a.cell.y) + entry.shift_y}));
@@ -265,7 +265,7 @@ void EventLoopOf<A>::lose(std::uint32_t i) {
 template <Acceleration A>
 void EventLoopOf<A>::tell_lower(std::uint32_t i) {
     const auto tell = [this, i](std::uint32_t j, const NextEvent& event) {
-        const NextEvent theirs{event.time,     records_[i].id, records_[i].anchor.stamp,
+        const NextEvent theirs{event.time,     records_[i].id(), records_[i].anchor.stamp,
                                -event.image_x, -event.image_y, i};
         if (!precedes(theirs, records_[j].next, j)) return;
         records_[j].next = theirs;
@@ -275,11 +275,11 @@ void EventLoopOf<A>::tell_lower(std::uint32_t i) {
         if (event.local == j && clock_.since_epoch(event.time, epoch_) == now_) tell(j, event);
     };
     if (const NextEvent event = records_[i].next;
-        event.local != kNowhere && event.partner < records_[i].id && is_current(event))
+        event.local != kNowhere && event.partner < records_[i].id() && is_current(event))
         tell(event.local, event);
     // What comes later is not asked for, which spares most pairs the search for a root.
     const NextEvent now{.time = time_now()};
-    const auto is_told = [this, i](std::uint32_t j) { return records_[j].id < records_[i].id; };
+    const auto is_told = [this, i](std::uint32_t j) { return records_[j].id() < records_[i].id(); };
     const CellCoordinates c = records_[i].anchor.cell;
     const std::int32_t across = cell_reach(bodies_.grid.x, i);
     const std::int32_t along = cell_reach(bodies_.grid.y, i);

@@ -97,16 +97,16 @@ bool WindowedEngine::start_anew(const Time& t, std::span<NewStart> starts) {
         bool has_some = false;
         for (std::size_t i = 0; i < d.start.records.size(); ++i) {
             BallRecord& r = d.start.records[i];
-            if (start_of[r.id] == kNowhere) continue;
+            if (start_of[r.id()] == kNowhere) continue;
             has_some = true;
-            NewStart& start = starts[start_of[r.id]];
+            NewStart& start = starts[start_of[r.id()]];
             BallExtra ignored;
             Vec2& acceleration = (d.start.extras.empty() ? ignored : d.start.extras[i]).acceleration;
             carom::start_anew(bodies_, r.anchor, r.periods, acceleration, t, start);
             ++r.anchor.stamp;
             r.next = {.time = kUnknown};  // the domains find it when they have their copies
             if (bodies_.accelerates_each())
-                acceleration = bodies_.acceleration_at(r.id, {r.anchor.x, r.anchor.y});
+                acceleration = bodies_.acceleration_at(r.id(), {r.anchor.x, r.anchor.y});
             start.state = state_at(bodies_, r.anchor, r.periods, acceleration, t);
         }
         if (has_some) index(d, d.start);
@@ -137,7 +137,7 @@ WindowedEngine::Past WindowedEngine::past_of(const DomainState& d, std::size_t i
 void WindowedEngine::read_domains(std::span<std::uint32_t> domains) const {
     for (std::size_t d = 0; d < domains_.size(); ++d)
         for (const BallRecord& record : held(domains_[d]).records)
-            domains[record.id] = static_cast<std::uint32_t>(d);
+            domains[record.id()] = static_cast<std::uint32_t>(d);
 }
 
 void WindowedEngine::visit_states(const Time& t, const VisitState& visit) const {
@@ -148,7 +148,7 @@ void WindowedEngine::visit_states(const Time& t, const VisitState& visit) const 
         const std::vector<std::uint32_t> latest = latest_until(d, t);
         for (std::size_t i = 0; i < records.size(); ++i) {
             const Past past = past_of(d, i, latest, t);
-            visit(records[i].id, state_at(bodies_, past.anchor, past.periods,
+            visit(records[i].id(), state_at(bodies_, past.anchor, past.periods,
                                           extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, t));
         }
     });
@@ -161,7 +161,7 @@ void WindowedEngine::visit_flights(const Stop& from, const Time& to, const Visit
         const auto& extras = held(d).extras;
         FlightList flights(bodies_);
         for (std::size_t i = 0; i < records.size(); ++i)
-            visit(records[i].id,
+            visit(records[i].id(),
                   flights.of(records[i].anchor, extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration,
                              d.overwritten, in_window_ ? d.last_overwritten[i] : kNowhere, from, to));
     });
@@ -173,7 +173,7 @@ void WindowedEngine::save(const Time& t, Snapshot& snapshot) const {
     std::vector<Time> before_window(in_window_ && bodies_.physics.contact_time > 0 ? bodies_.count : 0);
     for (const DomainState& d : domains_)
         for (std::size_t k = 0; !before_window.empty() && k < d.start.records.size(); ++k)
-            before_window[d.start.records[k].id] = d.start.extras[k].last_collision;
+            before_window[d.start.records[k].id()] = d.start.extras[k].last_collision;
     // The window at hand is gone through anew from there; what it took is counted all the same.
     for (const DomainState& d : domains_)
         if (in_window_) snapshot.counts.events += d.events;
@@ -187,8 +187,8 @@ void WindowedEngine::save(const Time& t, Snapshot& snapshot) const {
             const Past past = past_of(d, i, latest, t);
             BallExtra extra = extras.empty() ? BallExtra{} : extras[i];
             if (!before_window.empty())
-                extra.last_collision = past.is_of_window ? past.anchor.time : before_window[records[i].id];
-            saver.save(records[i].id, past.anchor, past.periods, extra);
+                extra.last_collision = past.is_of_window ? past.anchor.time : before_window[records[i].id()];
+            saver.save(records[i].id(), past.anchor, past.periods, extra);
         }
     });
 }
