@@ -36,10 +36,28 @@ struct CopyOutcome {
     bool is_lost = false;   ///< given up before the window's end
 };
 
-/// A copy in another cell of the region.
-struct CopyVisit {
+/// A ball of the domain's own whose next event is with a copy.
+struct PartnerOfCopy {
+    std::uint32_t ball = 0;  ///< index in `end`
     std::uint32_t copy = 0;
-    std::int32_t mark = 0;
+};
+
+/// A collision of one of the domain's own balls with a copy.
+struct MeetingWithCopy {
+    Origin copy;
+    std::uint64_t mark = 0;  ///< see Meeting
+};
+
+/// The marks of all collisions with the balls of one other domain, in any order.
+struct SumOfMeetings {
+    std::uint32_t domain = 0;
+    std::uint64_t sum = 0;
+};
+
+/// A cell touched by the domain, in which a foreign ball was that did something else here or was not here.
+struct UnseenVisit {
+    std::uint32_t owner = 0;  ///< the ball's
+    CellCoordinates cell;     ///< folded into the box on periodic axes
 };
 
 /// A domain's own ball in another cell.
@@ -60,6 +78,7 @@ struct Workshop {
     std::vector<std::uint32_t> residents;          ///< where the domain's records are in the loop
     std::vector<std::vector<std::uint32_t>> here;  ///< where copies are, by their last origins
     std::vector<std::uint32_t> places;             ///< of the message's balls
+    std::vector<std::uint32_t> unknown;            ///< whose next event is to be looked for
     std::thread::id thread;                        ///< that used it last
 };
 
@@ -72,8 +91,9 @@ struct Roster {
     std::vector<CellCoordinates> cells;      ///< of the records, folded into the box on periodic axes
     Span cells_x, cells_y;                   ///< that hold them all
     std::vector<std::uint32_t> near_border;  ///< those that halos as wide as all start with may hold
+    std::vector<std::uint32_t> unknown;      ///< whose next event is kUnknown, as the window has left it
 
-    void clear() { empty(records, extras, origins, places, cells, near_border); }
+    void clear() { empty(records, extras, origins, places, cells, near_border, unknown); }
     /// One more than the last of `places`.
     [[nodiscard]] std::uint32_t places_end() const {
         return places.empty() ? 0 : std::ranges::max(places) + 1;
@@ -85,6 +105,7 @@ struct DomainState {
     Roster start;                          ///< of the window
     Roster end;                            ///< the domain's own balls after it
     std::vector<std::uint64_t> histories;  ///< of the balls of `start` in the window, written by their owners
+    std::vector<std::uint32_t> owners;     ///< of them, likewise: domains
 
     // What came of the window.
     std::vector<OverwrittenAnchor> overwritten;
@@ -99,10 +120,13 @@ struct DomainState {
     Region region;
     std::int32_t halo = 0;
     std::vector<CopyOutcome> copies;  ///< in the order of their origins
-    std::vector<CopyVisit> copy_visits;
+    std::vector<PartnerOfCopy> partners_of_copies;
+    std::vector<MeetingWithCopy> meetings;
     std::vector<Visit> visits;                 ///< of its own balls, by their places in the loop
     std::vector<OwnVisit> visits_near_border;  ///< those that halos as wide as all start with may reach
     std::vector<std::uint8_t> touched;
+    std::vector<SumOfMeetings> sums;  ///< one a domain met
+    std::vector<UnseenVisit> unseen;
     bool failed = false;
     bool is_full = false;  ///< failed for there was no room for all its collisions
 
@@ -113,7 +137,7 @@ struct DomainState {
 
     /// Forgets what the last window came to, but for `end`.
     void clear_outcome() {
-        empty(overwritten, last_overwritten, notes, collisions, copies, copy_visits, visits,
+        empty(overwritten, last_overwritten, notes, collisions, copies, partners_of_copies, meetings, visits,
               visits_near_border);
         told = 0;
         events = copied_collisions = 0;

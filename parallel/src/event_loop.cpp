@@ -49,7 +49,7 @@ void EventLoop::forget_window() {
     simultaneous_ = failed_ = full_ = false;
     turns_ = events_at_once_ = 0;
     events = collisions_of_all = 0;
-    empty(notes, collisions, overwritten, visits, visits_of_copies);
+    empty(notes, collisions, overwritten, visits, meetings);
     if (!keeps_window) return;
     touched.assign(static_cast<std::size_t>(region_.mark_count()), 0);
     // The domain's own cells are touched, and those beside them.
@@ -173,6 +173,12 @@ void EventLoopOf<A>::remove(std::uint32_t i) {
 }
 
 template <Acceleration A>
+void EventLoopOf<A>::look_again(std::span<const std::uint32_t> balls) {
+    if (filters_ && sights_.are_worn(now_)) sight_all();
+    for (const std::uint32_t i : balls) expect(i, search(i));
+}
+
+template <Acceleration A>
 void EventLoopOf<A>::hand_over(std::uint32_t i, const Time& end) {
     locals_[i].owned = 0;
     locals_[i].end = clock_.since_epoch(end, epoch_);
@@ -243,6 +249,8 @@ void EventLoopOf<A>::start_anew(const Time& t, std::span<const NewStart> starts)
 
 template <Acceleration A>
 void EventLoopOf<A>::audit(std::vector<Violation>& found) const {
+    std::vector<std::uint32_t> place_of_id(bodies_.count, kNowhere);
+    for (std::uint32_t i = 0; i < size(); ++i) place_of_id[records_[i].id()] = i;
     for (std::uint32_t i = 0; i < size(); ++i) {
         const auto report_fault = [this, &found, i](const std::string& what) {
             found.push_back({bodies_.ball_name(records_[i].id()) + ": " + what});
@@ -255,6 +263,11 @@ void EventLoopOf<A>::audit(std::vector<Violation>& found) const {
         cells_.for_each(place_of(i, a.cell), [&](std::uint32_t j) { listed = listed || j == i; });
         if (listed == is_large(i) || records_[i].place != place_of(i, a.cell))
             report_fault("is not listed in its cell");
+        const NextEvent& next = records_[i].next;
+        const std::uint32_t j = next.partner < bodies_.count ? place_of_id[next.partner] : kNowhere;
+        if (j != kNowhere && records_[j].anchor.stamp == next.stamp &&
+            predict_pair(i, j, {next.image_x, next.image_y}, kNever) != next.time)
+            report_fault("has an event at another time than its partner's way and its own give");
         const NextEvent best = search(i);
         const bool partner_knows = best.local != kNowhere && records_[best.local].next.time <= best.time;
         if (best.time < records_[i].next.time && !partner_knows)
@@ -297,7 +310,7 @@ void start_anew(const Bodies& bodies, Anchor& anchor, Periods& periods, const Ve
     if (start.position) place = bodies.held_position(*start.position, periods);
     const Vec2 velocity = bodies.held_velocity(start.velocity ? *start.velocity : velocity_at(way, since));
     anchor = {place.x(), place.y(),    velocity.x(), velocity.y(),
-              t,         anchor.stamp, anchor.id, bodies.grid.coordinates(place)};
+              t,         anchor.stamp, anchor.id,    bodies.grid.coordinates(place)};
 }
 
 Motion<double> motion_since(const Bodies& bodies, const Anchor& anchor, const Vec2& acceleration) {

@@ -95,6 +95,12 @@ struct NewStart {
 void start_anew(const Bodies& bodies, Anchor& anchor, Periods& periods, const Vec2& acceleration,
                 const Time& t, const NewStart& start);
 
+/// A collision of a ball of the domain's own with a copy.
+struct Meeting {
+    std::uint32_t copy = 0;
+    std::uint64_t mark = 0;  ///< of its time, of who met and of their ways there
+};
+
 /// A ball that has come to another cell.
 struct Visit {
     std::uint32_t ball = 0;
@@ -130,6 +136,8 @@ class EventLoop {
     virtual void hand_over(std::uint32_t i, const Time& end) = 0;
     /// Takes ball i out. Events of others that name it are dropped when they come up.
     virtual void remove(std::uint32_t i) = 0;
+    /// Finds the next events of these balls from what is around them now.
+    virtual void look_again(std::span<const std::uint32_t> balls) = 0;
 
     /// Balls i and j may be each the other's partner: then i need not look for it.
     void suggest_partner(std::uint32_t i, std::uint32_t j) {
@@ -201,7 +209,7 @@ class EventLoop {
     std::vector<Collision> collisions;           ///< the same in full, where the loop listens
     std::vector<OverwrittenAnchor> overwritten;  ///< of owned balls
     std::vector<Visit> visits;                   ///< of owned balls
-    std::vector<Visit> visits_of_copies;
+    std::vector<Meeting> meetings;
     std::vector<std::uint8_t>
         touched;  ///< one a mark of the region: whether a ball of its own was in the cell or beside
     std::uint64_t events = 0;             ///< of owned balls: collisions, cell crossings, stale predictions

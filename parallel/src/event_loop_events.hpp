@@ -13,6 +13,7 @@
 #include "event_loop_of.hpp"
 #include "event_loop_pair.hpp"
 #include "fault.hpp"
+#include "hash.hpp"
 
 namespace carom {
 
@@ -289,12 +290,9 @@ void EventLoopOf<A>::relist(std::uint32_t i, CellCoordinates cell) {
     records_[i].place = place;
     if (!keeps_window) return;
     const CellCoordinates here{cell.x + locals_[i].frame.x, cell.y + locals_[i].frame.y};
-    if (is_owned(i)) {
-        visits.push_back({i, here});
-        if (region_.depth(here) > 0) touch(here);
-    } else {
-        visits_of_copies.push_back({i, here});
-    }
+    if (!is_owned(i)) return;
+    visits.push_back({i, here});
+    if (region_.depth(here) > 0) touch(here);
 }
 
 /// The TC model: a body that has collided a moment ago loses nothing. `j` == i where the other body has no
@@ -310,6 +308,8 @@ double EventLoopOf<A>::restitution_at(double restitution, std::uint32_t i, std::
 template <Acceleration A>
 void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image, const Time& t) {
     put_in_order(i, j, image);
+    if (keeps_window && is_owned(i) != is_owned(j)) [[unlikely]]
+        keep_meeting(i, j, image, t);
     Pair pair = pair_at(i, j, t);
     const bool plain = A != Acceleration::kPerBall && is_plain(pair);
     if (plain) {
@@ -360,6 +360,20 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
     const bool has_looked_j = look_beside(j, {0, 0}, around_j);
     expect(i, search_among(i, around_i, has_looked_i));
     expect(j, search_among(j, around_j, has_looked_j));
+}
+
+/// Notes that one of the domain's own balls and a copy will collide, for the copy's owner to have that as
+/// well. By id i < j. What comes of it follows from the balls' ways to it.
+template <Acceleration A>
+void EventLoopOf<A>::keep_meeting(std::uint32_t i, std::uint32_t j, Image image, const Time& t) {
+    Hash hash;
+    hash << t.offset << std::uint64_t{records_[i].id()} << std::uint64_t{records_[j].id()};
+    hash << static_cast<std::uint64_t>(image.x) << static_cast<std::uint64_t>(image.y);
+    for (const std::uint32_t k : {i, j}) {
+        const Anchor& a = records_[k].anchor;
+        hash << a.x << a.y << a.vx << a.vy << static_cast<std::uint64_t>(a.time.epoch) << a.time.offset;
+    }
+    meetings.push_back({is_owned(i) ? j : i, hash.value});
 }
 
 template <Acceleration A>

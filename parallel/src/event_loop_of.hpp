@@ -32,6 +32,7 @@ class EventLoopOf final : public EventLoop {
                         const Time& end) override;
     void hand_over(std::uint32_t i, const Time& end) override;
     void remove(std::uint32_t i) override;
+    void look_again(std::span<const std::uint32_t> balls) override;
 
  private:
     [[nodiscard]] Vec2 acceleration_of(std::uint32_t i) const {
@@ -216,6 +217,7 @@ class EventLoopOf final : public EventLoop {
                                                            bool& is_inside) const;
     [[gnu::noinline]] void pass_on_notes();
     void collide_pair(std::uint32_t i, std::uint32_t j, Image image, const Time& t);
+    [[gnu::noinline]] void keep_meeting(std::uint32_t i, std::uint32_t j, Image image, const Time& t);
     [[gnu::noinline, gnu::flatten]] void collide_obstacle(std::uint32_t i, const NextEvent& event);
     void keep_anchor(std::uint32_t i);
     Image advance(std::uint32_t i, const Time& t);

@@ -266,7 +266,7 @@ template <Acceleration A>
 void EventLoopOf<A>::tell_lower(std::uint32_t i) {
     const auto tell = [this, i](std::uint32_t j, const NextEvent& event) {
         const NextEvent theirs{event.time,     records_[i].id(), records_[i].anchor.stamp,
-                               -event.image_x, -event.image_y, i};
+                               -event.image_x, -event.image_y,   i};
         if (!precedes(theirs, records_[j].next, j)) return;
         records_[j].next = theirs;
         schedule(j);

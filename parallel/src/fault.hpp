@@ -15,6 +15,8 @@ enum class Fault : std::uint8_t {
     kSwappedMasses,  ///< each ball of a pair is taken for as heavy as the other
     kUnseenLarge,    ///< small balls do not see those that are larger than a cell
     kUnlikeCopies,   ///< domains do not compare what their copies did
+    kBlindDomains,   ///< of a collision that both balls' domains miss nobody asks
+    kOldForecasts,   ///< a ball beside one that its domain has not followed is not predicted anew
     kForgottenHit,   ///< a restored ball does not know when it collided last
     kOneMask,        ///< of two bodies only the first one's category is looked at
     kOldFlights,     ///< a wall that is added is hit by flights where it did not stand yet

@@ -24,6 +24,7 @@ void WindowedEngine::split(const std::vector<BallRecord>& records, const std::ve
             for (const BallInCell& ball : own) d.start.extras.push_back(extras[ball.record]);
         index(d, d.start);
         d.histories.resize(own.size());
+        d.owners.resize(own.size());
     });
 }
 

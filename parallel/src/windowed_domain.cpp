@@ -116,6 +116,7 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
     };
     for (const std::uint32_t i : w.copies) here(w.origins[i]) = i;
 
+    w.unknown.clear();
     w.message.clear();
     for (std::uint32_t d = 0; d < domains_.size(); ++d)
         if (d != self) pack(d, region, halo, w.message);
@@ -151,6 +152,8 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
             loop.remove(i);
         }
     }
+    for (const std::uint32_t k : d.start.unknown)
+        if (loop.id(d.start.places[k]) != kNowhere) w.unknown.push_back(d.start.places[k]);
     for (std::size_t k = 0; k < w.message.size(); ++k) {
         const BallMessage& ball = w.message[k];
         std::uint32_t i = w.places[k];
@@ -158,7 +161,9 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
         if (w.origins.size() <= i) w.origins.resize(i + 1);
         w.origins[i] = ball.origin;
         (ball.depth == 0 ? w.own : w.copies).push_back(i);
+        if (ball.record.next.time == kUnknown) w.unknown.push_back(i);
     }
+    loop.look_again(w.unknown);
     const auto after = std::ranges::partition_point(
         w.copies, [&w, self](std::uint32_t i) { return w.origins[i].domain < self; });
     w.copies.insert(after, left.begin(), left.end());
@@ -199,6 +204,7 @@ void WindowedEngine::run(DomainState& d, const Stop& window_end, Workshop& w) {
 
 void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& window_end) {
     EventLoop& loop = *w.loop;
+    const auto self = static_cast<std::uint32_t>(&d - domains_.data());
     d.clear_outcome();
     std::swap(d.overwritten, loop.overwritten);
     std::swap(d.notes, loop.notes);
@@ -214,6 +220,7 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
         const Origin& origin = d.end.origins[k];
         d.last_overwritten[k] = loop.last_overwritten(i);
         domains_[origin.domain].histories[origin.index] = loop.history(i);
+        domains_[origin.domain].owners[origin.index] = self;
     }
     d.copies.reserve(w.copies.size());
     std::vector<std::uint32_t>& copy_of = w.places;
@@ -224,8 +231,14 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
         d.copies.push_back(
             {w.origins[i], loop.history(i), d.region.mark(d.region.framed(c)), loop.is_lost(i, window_end)});
     }
-    for (const Visit& v : loop.visits_of_copies)
-        d.copy_visits.push_back({copy_of[v.ball], d.region.mark(v.cell)});
+    for (std::uint32_t k = 0; k < w.own.size(); ++k) {
+        const NextEvent& next = d.end.records[k].next;
+        const std::uint32_t i = next.local;
+        // Its place may be free, or another ball's, where the partner has left the region.
+        if (i != kNowhere && loop.id(i) == next.partner && !loop.is_owned(i))
+            d.partners_of_copies.push_back({k, copy_of[i]});
+    }
+    for (const Meeting& m : loop.meetings) d.meetings.push_back({w.origins[m.copy], m.mark});
     std::swap(d.visits, loop.visits);
     for (const Visit& v : d.visits)
         if (!d.region.x.is_deep_inside(v.cell.x, halo_) || !d.region.y.is_deep_inside(v.cell.y, halo_))
@@ -242,6 +255,7 @@ void WindowedEngine::keep_own(DomainState& d, const Workshop& w) const {
         d.end.records[k] = w.loop->records()[w.own[k]];
     }
     d.end.extras.clear();
+    d.end.unknown.clear();
     if (bodies_.needs_extras())
         for (const std::uint32_t i : w.own) d.end.extras.push_back(w.loop->extra(i));
     index(d, d.end);
@@ -257,19 +271,22 @@ std::vector<OwnVisit> WindowedEngine::all_visits(const DomainState& d) const {
     return all;
 }
 
-/// Whether every foreign ball that could have met one of the domain's own did there what it did at its owner.
-bool WindowedEngine::agrees(const DomainState& d) const {
-    if (d.failed) return false;
-    if (is_active(Fault::kUnlikeCopies)) return true;
+/// What a domain knows of the foreign balls that could have met its own: those that it has not followed as
+/// they went at their owners, and what it has had to do with the others.
+void WindowedEngine::compare(DomainState& d) const {
+    empty(d.unseen, d.sums);
+    if (d.failed || is_active(Fault::kUnlikeCopies)) return;
+    const auto see = [this, &d](const Origin& ball, const CellCoordinates& cell) {
+        d.unseen.push_back({domains_[ball.domain].owners[ball.index], cell});
+    };
     std::vector<std::uint8_t> is_right(d.copies.size());
     for (std::size_t k = 0; k < d.copies.size(); ++k) {
         const CopyOutcome& copy = d.copies[k];
-        is_right[k] =
-            !copy.is_lost && copy.history == domains_[copy.origin.domain].histories[copy.origin.index];
-        if (!is_right[k] && d.touched[static_cast<std::size_t>(copy.mark)]) return false;
+        const DomainState& holder = domains_[copy.origin.domain];
+        is_right[k] = !copy.is_lost && copy.history == holder.histories[copy.origin.index];
+        if (!is_right[k] && d.touched[static_cast<std::size_t>(copy.mark)])
+            see(copy.origin, holder.start.cells[copy.origin.index]);
     }
-    for (const CopyVisit& v : d.copy_visits)
-        if (!is_right[v.copy] && d.touched[static_cast<std::size_t>(v.mark)]) return false;
     for (const DomainState& other : domains_) {
         if (&other == &d || !d.region.meets(other.region)) continue;
         const std::vector<OwnVisit> widely = d.halo > halo_ ? all_visits(other) : std::vector<OwnVisit>{};
@@ -279,10 +296,87 @@ bool WindowedEngine::agrees(const DomainState& d) const {
             const auto copy = std::ranges::lower_bound(d.copies, v.origin, {}, &CopyOutcome::origin);
             if (copy == d.copies.end() || copy->origin != v.origin ||
                 !is_right[static_cast<std::size_t>(copy - d.copies.begin())])
-                return false;
+                see(v.origin, v.cell);
         }
     }
-    return true;
+    for (const MeetingWithCopy& m : d.meetings) {
+        const std::uint32_t owner = domains_[m.copy.domain].owners[m.copy.index];
+        auto sum = std::ranges::find(d.sums, owner, &SumOfMeetings::domain);
+        if (sum == d.sums.end()) sum = d.sums.insert(sum, {owner, 0});
+        sum->sum += m.mark;
+    }
+    forget_predictions(d, is_right);
+}
+
+/// Next events that the domain may have foretold wrongly are to be looked for anew: with a copy that went
+/// astray, or of a ball beside one that it has not followed.
+void WindowedEngine::forget_predictions(DomainState& d, const std::vector<std::uint8_t>& is_right) const {
+    const auto forget = [&d](std::uint32_t k) {
+        NextEvent& next = d.end.records[k].next;
+        if (next.time == kUnknown) return;
+        next = {.time = kUnknown};
+        d.end.unknown.push_back(k);
+    };
+    for (const PartnerOfCopy& p : d.partners_of_copies)
+        if (!is_right[p.copy]) forget(p.ball);
+    if (d.unseen.empty() || is_active(Fault::kOldForecasts)) return;
+    std::vector<std::uint8_t> is_beside(static_cast<std::size_t>(d.region.mark_count()));
+    for (const UnseenVisit& v : d.unseen) {
+        const CellCoordinates c = d.region.framed(v.cell);
+        for (const std::int32_t y : {c.y - 1, c.y, c.y + 1})
+            for (const std::int32_t x : {c.x - 1, c.x, c.x + 1})
+                if (const std::int32_t mark = d.region.mark({x, y}); mark >= 0)
+                    is_beside[static_cast<std::size_t>(mark)] = 1;
+    }
+    for (std::uint32_t k = 0; k < d.end.cells.size(); ++k)
+        if (const std::int32_t mark = d.region.mark(d.region.framed(d.end.cells[k]));
+            mark < 0 || is_beside[static_cast<std::size_t>(mark)])
+            forget(k);
+}
+
+/// Whether two cells, folded into the box on periodic axes, are the same or neighbours.
+bool WindowedEngine::are_beside(const CellCoordinates& a, const CellCoordinates& b) const {
+    const auto is_near = [](const GridAxis& axis, std::int32_t distance) {
+        const std::int32_t cells = std::abs(distance);
+        return cells <= 1 || (axis.periodic() && cells >= axis.count() - 1);
+    };
+    return is_near(bodies_.grid.x, a.x - b.x) && is_near(bodies_.grid.y, a.y - b.y);
+}
+
+/// Whether one ball of each of two domains, neither followed by the other one, may have met.
+bool WindowedEngine::is_blind(std::uint32_t d, std::uint32_t other) const {
+    if (is_active(Fault::kBlindDomains)) return false;
+    constexpr std::size_t kMost = 1 << 20;  // pairs worth a look
+    const std::vector<UnseenVisit>& here = domains_[d].unseen;
+    const std::vector<UnseenVisit>& there = domains_[other].unseen;
+    if (here.size() * there.size() > kMost) return true;
+    for (const UnseenVisit& v : here)
+        for (const UnseenVisit& w : there)
+            if (v.owner == other && w.owner == d && are_beside(v.cell, w.cell)) return true;
+    return false;
+}
+
+/// The domains that have to go through the window again, one flag each: those that have failed, and of the
+/// others each two that have not had the same collisions with each other, or were blind to one.
+std::vector<std::uint8_t> WindowedEngine::disagreeing() const {
+    std::vector<std::uint8_t> all(domains_.size());
+    for (std::uint32_t d = 0; d < domains_.size(); ++d) {
+        if (domains_[d].failed) all[d] = 1;
+        const auto compare_with = [&](std::uint32_t other, bool agrees) {
+            if (agrees || domains_[d].failed || domains_[other].failed) return;
+            all[d] = all[other] = 1;
+        };
+        for (const SumOfMeetings& mine : domains_[d].sums) {
+            const auto& theirs = domains_[mine.domain].sums;
+            const auto sum = std::ranges::find(theirs, d, &SumOfMeetings::domain);
+            compare_with(mine.domain, sum != theirs.end() && sum->sum == mine.sum);
+        }
+        std::uint32_t last = d;
+        for (const UnseenVisit& v : domains_[d].unseen)
+            if (const std::uint32_t other = std::exchange(last, v.owner); other != v.owner)
+                compare_with(v.owner, !is_blind(d, v.owner));
+    }
+    return all;
 }
 
 }  // namespace carom

@@ -9,8 +9,8 @@ namespace carom {
 namespace {
 
 // Cells. What a window costs beside its events is less where loops stay, so that windows may be shorter.
-constexpr std::int32_t kHalo = 7;
-constexpr std::int32_t kHaloWhereLoopsStay = 6;
+constexpr std::int32_t kHalo = 6;
+constexpr std::int32_t kHaloWhereLoopsStay = 5;
 // So often the domains that disagree go through a window again before it is given up.
 constexpr int kMostRepairs = 2;
 // The first window's share of an epoch; the next ones follow the collisions that it had.
@@ -64,12 +64,13 @@ bool WindowedEngine::try_window(const Stop& window_end) {
         for_each_domain([&](std::size_t d) {
             if (runs[d]) run(domains_[d], window_end);
         });
-        for_each_domain([&](std::size_t d) { runs[d] = agrees(domains_[d]) ? 0 : 1; });
-        const auto disagreeing = static_cast<std::uint64_t>(std::ranges::count(runs, 1));
-        if (disagreeing == 0) return true;
-        counts_.window_retries += disagreeing;
-        disagreeing_ += disagreeing;
-        const bool gives_up = round == kMostRepairs || 4 * disagreeing > 3 * domains_.size() + 4 ||
+        for_each_domain([&](std::size_t d) { compare(domains_[d]); });
+        runs = disagreeing();
+        const auto count = static_cast<std::uint64_t>(std::ranges::count(runs, 1));
+        if (count == 0) return true;
+        counts_.window_retries += count;
+        disagreeing_ += count;
+        const bool gives_up = round == kMostRepairs || 4 * count > 3 * domains_.size() + 4 ||
                               std::ranges::any_of(domains_, &DomainState::is_full);
         if (gives_up) {
             forget_loops();
@@ -166,6 +167,7 @@ void WindowedEngine::commit() {
     for (DomainState& d : domains_) {
         std::swap(d.start, d.end);
         d.histories.resize(d.start.records.size());
+        d.owners.resize(d.start.records.size());
         counts_.events += d.events;
         counts_.copied_collisions += d.copied_collisions;
         most = std::max(most, d.start.records.size());

@@ -77,7 +77,11 @@ class WindowedEngine final : public Engine {
     void keep_own(DomainState& d, const Workshop& w) const;
     void keep_outcome(DomainState& d, Workshop& w, const Time& window_end);
     [[nodiscard]] std::vector<OwnVisit> all_visits(const DomainState& d) const;
-    [[nodiscard]] bool agrees(const DomainState& d) const;
+    void compare(DomainState& d) const;
+    void forget_predictions(DomainState& d, const std::vector<std::uint8_t>& is_right) const;
+    [[nodiscard]] bool are_beside(const CellCoordinates& a, const CellCoordinates& b) const;
+    [[nodiscard]] bool is_blind(std::uint32_t d, std::uint32_t other) const;
+    [[nodiscard]] std::vector<std::uint8_t> disagreeing() const;
     [[nodiscard]] bool try_window(const Stop& window_end);
     [[nodiscard]] Stop run_together(const Stop& window_end, bool may_end_early);
     void predict_anew(bool renews_field);

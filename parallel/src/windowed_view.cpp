@@ -149,7 +149,7 @@ void WindowedEngine::visit_states(const Time& t, const VisitState& visit) const 
         for (std::size_t i = 0; i < records.size(); ++i) {
             const Past past = past_of(d, i, latest, t);
             visit(records[i].id(), state_at(bodies_, past.anchor, past.periods,
-                                          extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, t));
+                                            extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, t));
         }
     });
 }
