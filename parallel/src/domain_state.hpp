@@ -28,6 +28,12 @@ struct BallMessage {
     std::int32_t depth = 0;  ///< cells beyond the receiver's own, 0 inside
 };
 
+/// A ball after the window, as the domain tells that owned it.
+struct BallOutcome {
+    std::uint64_t history = 0;
+    std::uint32_t owner = 0;
+};
+
 /// A domain's copy of a foreign ball, after the window.
 struct CopyOutcome {
     Origin origin;
@@ -40,12 +46,6 @@ struct CopyOutcome {
 struct PartnerOfCopy {
     std::uint32_t ball = 0;  ///< index in `end`
     std::uint32_t copy = 0;
-};
-
-/// A collision of one of the domain's own balls with a copy.
-struct MeetingWithCopy {
-    Origin copy;
-    std::uint64_t mark = 0;  ///< see Meeting
 };
 
 /// The marks of all collisions with the balls of one other domain, in any order.
@@ -101,11 +101,10 @@ struct Roster {
 };
 
 struct DomainState {
-    Span x, y;                             ///< its own cells
-    Roster start;                          ///< of the window
-    Roster end;                            ///< the domain's own balls after it
-    std::vector<std::uint64_t> histories;  ///< of the balls of `start` in the window, written by their owners
-    std::vector<std::uint32_t> owners;     ///< of them, likewise: domains
+    Span x, y;                          ///< its own cells
+    Roster start;                       ///< of the window
+    Roster end;                         ///< the domain's own balls after it
+    std::vector<BallOutcome> outcomes;  ///< of the balls of `start`, written by their owners
 
     // What came of the window.
     std::vector<OverwrittenAnchor> overwritten;
@@ -121,7 +120,7 @@ struct DomainState {
     std::int32_t halo = 0;
     std::vector<CopyOutcome> copies;  ///< in the order of their origins
     std::vector<PartnerOfCopy> partners_of_copies;
-    std::vector<MeetingWithCopy> meetings;
+    std::vector<Meeting> meetings;             ///< with places in `copies`
     std::vector<Visit> visits;                 ///< of its own balls, by their places in the loop
     std::vector<OwnVisit> visits_near_border;  ///< those that halos as wide as all start with may reach
     std::vector<std::uint8_t> touched;

@@ -122,15 +122,12 @@ BallState EventLoop::state(std::uint32_t i, const Time& t) const {
 
 /// A ball of the domain's own has come here: it may meet what is in the cells around, so those must be known.
 void EventLoop::touch(const CellCoordinates& cell) {
-    for (std::int32_t y = cell.y - 1; y <= cell.y + 1; ++y) {
-        for (std::int32_t x = cell.x - 1; x <= cell.x + 1; ++x) {
-            const std::int32_t mark = region_.mark({x, y});
-            if (mark < 0)
-                failed_ = true;
-            else
-                touched[static_cast<std::size_t>(mark)] = 1;
-        }
-    }
+    region_.for_each_mark_beside(cell, [this](std::int32_t mark) {
+        if (mark < 0)
+            failed_ = true;
+        else
+            touched[static_cast<std::size_t>(mark)] = 1;
+    });
 }
 
 template <Acceleration A>

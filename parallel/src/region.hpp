@@ -164,6 +164,12 @@ struct Region {
     [[nodiscard]] std::int32_t mark(const CellCoordinates& c) const {
         return x.contains(c.x) && y.contains(c.y) ? y.mark(c.y) * x.mark_count() + x.mark(c.x) : -1;
     }
+    /// Calls f(mark) for the cell, in the region's frame, and those beside it.
+    template <class F>
+    void for_each_mark_beside(const CellCoordinates& c, F&& f) const {
+        for (std::int32_t row = c.y - 1; row <= c.y + 1; ++row)
+            for (std::int32_t column = c.x - 1; column <= c.x + 1; ++column) f(mark({column, row}));
+    }
     [[nodiscard]] bool meets(const Region& other) const { return x.meets(other.x) && y.meets(other.y); }
     [[nodiscard]] std::int32_t depth(const CellCoordinates& c) const {
         return std::max(x.depth(c.x), y.depth(c.y));

@@ -23,8 +23,7 @@ void WindowedEngine::split(const std::vector<BallRecord>& records, const std::ve
         if (!extras.empty())
             for (const BallInCell& ball : own) d.start.extras.push_back(extras[ball.record]);
         index(d, d.start);
-        d.histories.resize(own.size());
-        d.owners.resize(own.size());
+        d.outcomes.resize(own.size());
     });
 }
 

@@ -214,14 +214,6 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     d.copied_collisions =
         loop.collisions_of_all - std::min<std::uint64_t>(loop.collisions_of_all, d.notes.size());
     keep_own(d, w);
-    d.last_overwritten.resize(w.own.size());
-    for (std::size_t k = 0; k < w.own.size(); ++k) {
-        const std::uint32_t i = w.own[k];
-        const Origin& origin = d.end.origins[k];
-        d.last_overwritten[k] = loop.last_overwritten(i);
-        domains_[origin.domain].histories[origin.index] = loop.history(i);
-        domains_[origin.domain].owners[origin.index] = self;
-    }
     d.copies.reserve(w.copies.size());
     std::vector<std::uint32_t>& copy_of = w.places;
     copy_of.resize(loop.size());
@@ -231,14 +223,19 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
         d.copies.push_back(
             {w.origins[i], loop.history(i), d.region.mark(d.region.framed(c)), loop.is_lost(i, window_end)});
     }
+    d.last_overwritten.resize(w.own.size());
     for (std::uint32_t k = 0; k < w.own.size(); ++k) {
+        const std::uint32_t i = w.own[k];
+        const Origin& origin = d.end.origins[k];
+        d.last_overwritten[k] = loop.last_overwritten(i);
+        domains_[origin.domain].outcomes[origin.index] = {loop.history(i), self};
         const NextEvent& next = d.end.records[k].next;
-        const std::uint32_t i = next.local;
-        // Its place may be free, or another ball's, where the partner has left the region.
-        if (i != kNowhere && loop.id(i) == next.partner && !loop.is_owned(i))
-            d.partners_of_copies.push_back({k, copy_of[i]});
+        // The partner's place may be free, or another ball's, where the partner has left the region.
+        if (next.local != kNowhere && loop.id(next.local) == next.partner && !loop.is_owned(next.local))
+            d.partners_of_copies.push_back({k, copy_of[next.local]});
     }
-    for (const Meeting& m : loop.meetings) d.meetings.push_back({w.origins[m.copy], m.mark});
+    std::swap(d.meetings, loop.meetings);
+    for (Meeting& m : d.meetings) m.copy = copy_of[m.copy];
     std::swap(d.visits, loop.visits);
     for (const Visit& v : d.visits)
         if (!d.region.x.is_deep_inside(v.cell.x, halo_) || !d.region.y.is_deep_inside(v.cell.y, halo_))
@@ -277,13 +274,13 @@ void WindowedEngine::compare(DomainState& d) const {
     empty(d.unseen, d.sums);
     if (d.failed || is_active(Fault::kUnlikeCopies)) return;
     const auto see = [this, &d](const Origin& ball, const CellCoordinates& cell) {
-        d.unseen.push_back({domains_[ball.domain].owners[ball.index], cell});
+        d.unseen.push_back({domains_[ball.domain].outcomes[ball.index].owner, cell});
     };
     std::vector<std::uint8_t> is_right(d.copies.size());
     for (std::size_t k = 0; k < d.copies.size(); ++k) {
         const CopyOutcome& copy = d.copies[k];
         const DomainState& holder = domains_[copy.origin.domain];
-        is_right[k] = !copy.is_lost && copy.history == holder.histories[copy.origin.index];
+        is_right[k] = !copy.is_lost && copy.history == holder.outcomes[copy.origin.index].history;
         if (!is_right[k] && d.touched[static_cast<std::size_t>(copy.mark)])
             see(copy.origin, holder.start.cells[copy.origin.index]);
     }
@@ -299,8 +296,9 @@ void WindowedEngine::compare(DomainState& d) const {
                 see(v.origin, v.cell);
         }
     }
-    for (const MeetingWithCopy& m : d.meetings) {
-        const std::uint32_t owner = domains_[m.copy.domain].owners[m.copy.index];
+    for (const Meeting& m : d.meetings) {
+        const Origin& ball = d.copies[m.copy].origin;
+        const std::uint32_t owner = domains_[ball.domain].outcomes[ball.index].owner;
         auto sum = std::ranges::find(d.sums, owner, &SumOfMeetings::domain);
         if (sum == d.sums.end()) sum = d.sums.insert(sum, {owner, 0});
         sum->sum += m.mark;
@@ -321,13 +319,10 @@ void WindowedEngine::forget_predictions(DomainState& d, const std::vector<std::u
         if (!is_right[p.copy]) forget(p.ball);
     if (d.unseen.empty() || is_active(Fault::kOldForecasts)) return;
     std::vector<std::uint8_t> is_beside(static_cast<std::size_t>(d.region.mark_count()));
-    for (const UnseenVisit& v : d.unseen) {
-        const CellCoordinates c = d.region.framed(v.cell);
-        for (const std::int32_t y : {c.y - 1, c.y, c.y + 1})
-            for (const std::int32_t x : {c.x - 1, c.x, c.x + 1})
-                if (const std::int32_t mark = d.region.mark({x, y}); mark >= 0)
-                    is_beside[static_cast<std::size_t>(mark)] = 1;
-    }
+    for (const UnseenVisit& v : d.unseen)
+        d.region.for_each_mark_beside(d.region.framed(v.cell), [&is_beside](std::int32_t mark) {
+            if (mark >= 0) is_beside[static_cast<std::size_t>(mark)] = 1;
+        });
     for (std::uint32_t k = 0; k < d.end.cells.size(); ++k)
         if (const std::int32_t mark = d.region.mark(d.region.framed(d.end.cells[k]));
             mark < 0 || is_beside[static_cast<std::size_t>(mark)])
@@ -343,17 +338,14 @@ bool WindowedEngine::are_beside(const CellCoordinates& a, const CellCoordinates&
     return is_near(bodies_.grid.x, a.x - b.x) && is_near(bodies_.grid.y, a.y - b.y);
 }
 
-/// Whether one ball of each of two domains, neither followed by the other one, may have met.
-bool WindowedEngine::is_blind(std::uint32_t d, std::uint32_t other) const {
+/// Whether a ball that domain d has not followed may have met one of d's that its owner has not followed.
+bool WindowedEngine::is_blind(std::uint32_t d, const UnseenVisit& visit) const {
     if (is_active(Fault::kBlindDomains)) return false;
     constexpr std::size_t kMost = 1 << 20;  // pairs worth a look
-    const std::vector<UnseenVisit>& here = domains_[d].unseen;
-    const std::vector<UnseenVisit>& there = domains_[other].unseen;
-    if (here.size() * there.size() > kMost) return true;
-    for (const UnseenVisit& v : here)
-        for (const UnseenVisit& w : there)
-            if (v.owner == other && w.owner == d && are_beside(v.cell, w.cell)) return true;
-    return false;
+    const std::vector<UnseenVisit>& theirs = domains_[visit.owner].unseen;
+    return domains_[d].unseen.size() * theirs.size() > kMost ||
+           std::ranges::any_of(
+               theirs, [&](const UnseenVisit& v) { return v.owner == d && are_beside(v.cell, visit.cell); });
 }
 
 /// The domains that have to go through the window again, one flag each: those that have failed, and of the
@@ -371,10 +363,8 @@ std::vector<std::uint8_t> WindowedEngine::disagreeing() const {
             const auto sum = std::ranges::find(theirs, d, &SumOfMeetings::domain);
             compare_with(mine.domain, sum != theirs.end() && sum->sum == mine.sum);
         }
-        std::uint32_t last = d;
         for (const UnseenVisit& v : domains_[d].unseen)
-            if (const std::uint32_t other = std::exchange(last, v.owner); other != v.owner)
-                compare_with(v.owner, !is_blind(d, v.owner));
+            if (v.owner > d) compare_with(v.owner, !is_blind(d, v));  // what is blind is so both ways
     }
     return all;
 }

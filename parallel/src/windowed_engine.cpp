@@ -166,8 +166,7 @@ void WindowedEngine::commit() {
     was_quiet_ = std::ranges::all_of(domains_, [](const DomainState& d) { return d.events == 0; });
     for (DomainState& d : domains_) {
         std::swap(d.start, d.end);
-        d.histories.resize(d.start.records.size());
-        d.owners.resize(d.start.records.size());
+        d.outcomes.resize(d.start.records.size());
         counts_.events += d.events;
         counts_.copied_collisions += d.copied_collisions;
         most = std::max(most, d.start.records.size());

@@ -1,6 +1,6 @@
 // Domains side by side, exactly: each goes through a window of time on its own with copies of the balls
 // around it, then what the copies did is compared with what their owners did. docs/domains.md has the
-// argument why equal histories are the serial ones.
+// argument why domains that agree have the serial run's trajectories.
 #pragma once
 
 #include <algorithm>
@@ -80,7 +80,7 @@ class WindowedEngine final : public Engine {
     void compare(DomainState& d) const;
     void forget_predictions(DomainState& d, const std::vector<std::uint8_t>& is_right) const;
     [[nodiscard]] bool are_beside(const CellCoordinates& a, const CellCoordinates& b) const;
-    [[nodiscard]] bool is_blind(std::uint32_t d, std::uint32_t other) const;
+    [[nodiscard]] bool is_blind(std::uint32_t d, const UnseenVisit& visit) const;
     [[nodiscard]] std::vector<std::uint8_t> disagreeing() const;
     [[nodiscard]] bool try_window(const Stop& window_end);
     [[nodiscard]] Stop run_together(const Stop& window_end, bool may_end_early);

@@ -93,7 +93,7 @@ Scene head_on(double way) {
 
 // Neither ball is in the other domain's halo when a window begins, and they may meet just before it ends:
 // then nothing else tells that both domains have missed it. No scene drawn at random is likely to show that.
-TEST(BlindDomains, MissACollisionThatNeitherSees) {
+TEST(FaultsOfBlindDomains, MissACollisionThatNeitherSees) {
     int missed = 0;
     for (const int halo : {1, 2}) {
         for (double way = 3; way < 33; way += 0.5) {
