@@ -166,6 +166,22 @@ TEST(EventQueueAgainstASet, UsedAgainWithAnotherCount) {
     }
 }
 
+// What is entered then must find its day among the few of now; only checked indices tell where it does not.
+TEST(EventQueueAgainstASet, UsedAgainByFewerWithNothingToCome) {
+    Checked q(1000);
+    for (std::uint32_t id = 0; id < 1000; ++id) q.put(id, id);
+    q.queue.rebuild();
+    ASSERT_NO_FATAL_FAILURE(q.check());
+    q.queue.reset(3);
+    q.restart(3);
+    q.queue.rebuild();
+    ASSERT_NO_FATAL_FAILURE(q.check());
+    for (const double key : {2000.0, 999.0, 0.5, -1.0}) {
+        q.set(key < 1 ? 2 : 1, key);
+        ASSERT_NO_FATAL_FAILURE(q.check());
+    }
+}
+
 TEST(EventQueueAgainstASet, GrowsWhileItRuns) {
     Checked q(5);
     Random random(13);

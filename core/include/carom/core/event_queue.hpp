@@ -283,6 +283,7 @@ class EventQueue {
         crowd_key_ = kNever;
         is_known_ = false;
         word_ = taken_.size() - 1;
+        last_day_ = static_cast<double>(days - 1);
         double least = kNever;
         for (Slot& slot : slots_) {
             least = std::min(least, slot.key);
@@ -299,7 +300,6 @@ class EventQueue {
         year_end_ = std::max(least + year_length_, std::nextafter(least, kNever));
         days_per_time_ = static_cast<double>(days) / (year_end_ - year_start_);
         if (!std::isfinite(days_per_time_)) days_per_time_ = 0;
-        last_day_ = static_cast<double>(days - 1);
         constexpr std::size_t kStretch = 256;
         std::array<std::uint32_t, kStretch> in_year;
         for (std::size_t first = 0; first < slots_.size(); first += kStretch) {
