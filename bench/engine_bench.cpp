@@ -60,6 +60,26 @@ BENCHMARK(engine_gas)
     ->ArgNames({"balls", "packing%", "threads"})
     ->ArgsProduct({{1000, 10000, 100000, 1000000}, {20, 50, 70}, {1, 0}});
 
+// All pairs of a lattice meet head on at one instant, again and again: an iteration is two such instants.
+void engine_simultaneous(benchmark::State& state) {
+    const auto across = static_cast<int>(state.range(0));
+    Scene scene;
+    const Vec2 size(2.0 * across, 2.0 * across);
+    scene.domain = Domain{{{0, 0}, size}, {Boundary::kPeriodic, Boundary::kPeriodic}, 1};
+    for (int k = 0; k < across * across; ++k) {
+        Ball& ball = scene.balls.emplace_back();
+        ball.position = {2.0 * (k % across) + 1, 2.0 * static_cast<double>(k / across) + 1};
+        ball.velocity = {k % 2 == 0 ? 1.0 : -1.0, 0};
+    }
+    run(state, World(scene, on_threads(state.range(1))), 0.25, 2);
+}
+BENCHMARK(engine_simultaneous)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(5)
+    ->ArgNames({"across", "threads"})
+    ->ArgsProduct({{32, 100, 320}, {1, 0}});
+
 // Frames of a hundredth of a mean free time: what step() costs beyond the events. An iteration is a frame.
 void engine_frames(benchmark::State& state) {
     constexpr double kPacking = 0.3;

@@ -106,6 +106,12 @@ void EventLoop::begin() {
     queue_.reset(size());
     for (std::uint32_t i = 0; i < size(); ++i) queue_.put(i, key_of(i));
     queue_.rebuild();
+    simultaneous_ = false;  // who shares the present instant is asked anew
+}
+
+void EventLoop::enter_tie(std::uint32_t i) {
+    ties_.push_back(tie_of(i));
+    std::ranges::push_heap(ties_, std::greater());
 }
 
 BallExtra EventLoop::extra(std::uint32_t i) const {

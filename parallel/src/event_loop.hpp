@@ -240,10 +240,31 @@ class EventLoop {
             std::min(clock_.since_epoch(records_[i].next.time, epoch_), records_[i].crossing_time);
         return key <= locals_[i].end ? key : std::numeric_limits<double>::infinity();
     }
-    void schedule(std::uint32_t i) { queue_.set(i, key_of(i)); }
+    void schedule(std::uint32_t i) {
+        const double key = key_of(i);
+        queue_.set(i, key);
+        if (simultaneous_ && key == now_) [[unlikely]]
+            enter_tie(i);
+    }
     /// Whether that entry is for leaving its cell, and not for its next event.
     [[nodiscard]] bool crosses_first(std::uint32_t i) const {
         return records_[i].crossing_time <= clock_.since_epoch(records_[i].next.time, epoch_);
+    }
+
+    /// A ball's entry of the present instant, where several events share it: they come by their bodies' ids.
+    struct Tie {
+        std::pair<std::uint32_t, std::uint32_t> bodies;  // in order; twice the ball where it leaves its cell
+        std::uint32_t id;
+        std::uint32_t local;
+        friend auto operator<=>(const Tie&, const Tie&) = default;
+    };
+    [[nodiscard]] Tie tie_of(std::uint32_t i) const {
+        const std::uint32_t id = records_[i].id();
+        return {in_order(id, crosses_first(i) ? id : records_[i].next.partner), id, i};
+    }
+    [[gnu::noinline]] void enter_tie(std::uint32_t i);
+    [[nodiscard]] bool is_stale(const Tie& tie) const {
+        return queue_.key(tie.local) != now_ || tie != tie_of(tie.local);
     }
 
     const Bodies& bodies_;
@@ -277,7 +298,7 @@ class EventLoop {
     std::vector<Time> last_collision_;  // only where the contact time is not 0
     std::vector<std::uint32_t> large_;
     std::vector<std::uint32_t> free_;  // of no ball
-    std::vector<std::uint32_t> tied_;
+    std::vector<Tie> ties_;            // a heap, the first on top; of simultaneous events, some stale
 
     std::int64_t epoch_ = 0;
     double now_ = 0;             // since the start of the epoch

@@ -1,7 +1,9 @@
 // What happens at an event, and the loop that takes them in order.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
@@ -113,25 +115,25 @@ bool EventLoopOf<A>::are_plainly_first(const EventQueue::Front& first) const {
 /// the event of the smallest ids holds the first one. A static ball holds none, and may have the smallest.
 template <Acceleration A>
 std::uint32_t EventLoopOf<A>::first_of_ties() {
-    const auto rank = [this](std::uint32_t b) {
-        const std::uint32_t id = records_[b].id();
-        return std::tuple(in_order(id, crosses_first(b) ? id : records_[b].next.partner), id);
-    };
     if (!simultaneous_) {
-        tied_.clear();
-        queue_.for_each_first([&](std::uint32_t i) { tied_.push_back(i); });
-        const auto is_one_pair = [this] {
-            const NextEvent& a = records_[tied_[0]].next;
-            const NextEvent& b = records_[tied_[1]].next;
-            return a.partner == records_[tied_[1]].id() && b.partner == records_[tied_[0]].id() &&
-                   a.time == b.time;
+        std::vector<Tie> tied;
+        queue_.for_each_first([&](std::uint32_t i) { tied.push_back(tie_of(i)); });
+        const auto is_one_pair = [&] {
+            const NextEvent& a = records_[tied[0].local].next;
+            const NextEvent& b = records_[tied[1].local].next;
+            return a.partner == tied[1].id && b.partner == tied[0].id && a.time == b.time;
         };
-        if (tied_.size() > 2 || (tied_.size() == 2 && !is_one_pair())) {
-            simultaneous_ = true;
-            for (const std::uint32_t i : tied_) tell_lower(i);
-        }
+        if (tied.size() == 1 || (tied.size() == 2 && is_one_pair())) return std::ranges::min(tied).local;
+        simultaneous_ = true;
+        ties_ = tied;
+        std::ranges::make_heap(ties_, std::greater());
+        for (const Tie& tie : tied) tell_lower(tie.local);
     }
-    return queue_.first(rank);
+    while (is_stale(ties_.front())) {
+        std::ranges::pop_heap(ties_, std::greater());
+        ties_.pop_back();
+    }
+    return ties_.front().local;
 }
 
 /// Hands the notes on, in batches, where they are not kept.
@@ -164,6 +166,7 @@ void EventLoopOf<A>::start_next_epoch(std::int64_t epoch) {
     const double passed = clock_.epoch_length() * (double(epoch) - double(epoch_));
     epoch_ = epoch;
     now_ = 0;
+    simultaneous_ = false;
     for (std::uint32_t i = 0; i < size(); ++i) {
         records_[i].crossing_time -= passed;
         locals_[i].end -= passed;

@@ -2,6 +2,7 @@
 // hold a comma.
 #pragma once
 
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -28,9 +29,9 @@ inline Row split_row(const std::string& line) {
 
 /// All rows but the header.
 inline std::vector<Row> read_table(const std::string& name) {
-    const std::string path = std::string(CAROM_SOURCE_DIR) + "/tests/references/" + name;
+    const auto path = std::filesystem::path(CAROM_SOURCE_DIR) / "tests/references" / name;
     std::ifstream file(path);
-    if (!file) throw std::runtime_error("cannot open " + path);
+    if (!file) throw std::runtime_error("cannot open " + path.string());
     std::vector<Row> rows;
     std::string line;
     std::getline(file, line);

@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "brute_force_audit.hpp"
+#include "sanitized.hpp"
 #include "scenes.hpp"
 
 namespace carom::test {
 namespace {
 
-constexpr std::size_t kEvents = 10'000;
+constexpr std::size_t kEvents = kIsSanitized ? 2'000 : 10'000;
 constexpr std::size_t kFewerEvents = 1'000;
 
 class BruteForceAudit : public testing::TestWithParam<NamedScene> {};

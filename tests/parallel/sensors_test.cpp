@@ -12,6 +12,7 @@
 #include <carom/parallel/world.hpp>
 
 #include "core/sensor_distance.hpp"
+#include "sanitized.hpp"
 #include "scenes.hpp"
 
 namespace carom::test {
@@ -167,6 +168,7 @@ INSTANTIATE_TEST_SUITE_P(All, SensedScenes, testing::ValuesIn(all_scenes()), kNa
 // line goes around the sensor at the discs' radius. Entries follow each other like throws of a die at best:
 // five standard deviations of a Poisson number.
 TEST(Sensors, AGasComesInAtTheRateOfKineticTheory) {
+    if (kIsSanitized) GTEST_SKIP() << "a figure that takes long";
     Scene scene = gas(5, {.count = 400, .packing = 0.3});
     std::mt19937_64 random(9);
     double square = 0;
