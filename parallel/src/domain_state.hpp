@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "event_loop.hpp"
@@ -111,6 +112,7 @@ struct DomainState {
     std::vector<std::uint32_t> last_overwritten;  ///< one a ball of `end`
     std::vector<CollisionNote> notes;
     std::vector<Collision> collisions;  ///< one a note where somebody listens
+    Tally tally;                        ///< of all notes
     std::size_t told = 0;               ///< so many of the notes lie in the past
     std::uint64_t events = 0;
     std::uint64_t copied_collisions = 0;
@@ -134,11 +136,23 @@ struct DomainState {
     std::unique_ptr<Workshop> workshop;
     bool can_go_on = false;  ///< the workshop holds what the last window came to
 
+    /// The collisions that count here are those that a loop has noted.
+    void take_notes(EventLoop& loop, double typical_virial) {
+        std::swap(notes, loop.notes);
+        std::swap(collisions, loop.collisions);
+        tally.virial.set_scale(typical_virial);
+        for (const CollisionNote& note : notes) tally.count(note);
+    }
+    void forget_notes() {
+        empty(notes, collisions);
+        tally = {};
+        told = 0;
+    }
     /// Forgets what the last window came to, but for `end`.
     void clear_outcome() {
-        empty(overwritten, last_overwritten, notes, collisions, copies, partners_of_copies, meetings, visits,
+        forget_notes();
+        empty(overwritten, last_overwritten, copies, partners_of_copies, meetings, visits,
               visits_near_border);
-        told = 0;
         events = copied_collisions = 0;
     }
 };

@@ -206,7 +206,7 @@ void EmpiricalEngine::tell(const Meeting& meeting, const Hit& hit) {
     CollisionNote note;
     note.is_wall = partner >= bodies_.count;
     note.virial = hit.virial;
-    count(note);
+    tally_.count(note);
     ++counts_.events;
     if (!listener_) return;
     listener_(collision_of(bodies_, clock_.to_seconds(clock_.after(now_, meeting.time)), id_[i], partner,

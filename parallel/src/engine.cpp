@@ -31,7 +31,7 @@ class SerialEngine final : public Engine {
     SerialEngine(const Bodies& bodies, const EngineStart& start, const Executor& executor)
         : Engine(bodies, start), executor_(executor), loop_(make_event_loop(bodies)) {
         loop_->on_note = [this](const CollisionNote& note, const Collision* collision) {
-            count(note);
+            tally_.count(note);
             if (listener_ && collision != nullptr) listener_(*collision);
         };
         loop_->clear({bodies.grid, whole(bodies.grid.x), whole(bodies.grid.y), 0}, start.now);
@@ -118,17 +118,10 @@ class SerialEngine final : public Engine {
 }  // namespace
 
 Engine::Engine(const Bodies& bodies, const EngineStart& start) : bodies_(bodies), counts_(start.counts) {
-    virial_.set_scale(bodies.physics.typical_virial);
-    virial_.restore(start.virial);
-}
-
-void Engine::count(const CollisionNote& note) {
-    if (note.is_wall) {
-        ++counts_.wall_collisions;
-    } else {
-        ++counts_.ball_collisions;
-        virial_ += note.virial;
-    }
+    tally_.ball_collisions = start.counts.ball_collisions;
+    tally_.wall_collisions = start.counts.wall_collisions;
+    tally_.virial.set_scale(bodies.physics.typical_virial);
+    tally_.virial.restore(start.virial);
 }
 
 std::span<const Flight> FlightList::of(const Anchor& last, const Vec2& acceleration,

@@ -71,19 +71,23 @@ class Engine {
 
     /// Seconds that the threads have worked on domains, all together; 0 where there is one loop.
     [[nodiscard]] virtual double working_seconds() const { return 0; }
-    [[nodiscard]] const Counts& counts() const { return counts_; }
-    [[nodiscard]] double virial() const { return virial_.value(); }
-    [[nodiscard]] SavedSum saved_virial() const { return virial_.saved(); }
+    [[nodiscard]] Counts counts() const {
+        Counts all = counts_;
+        all.ball_collisions = tally_.ball_collisions;
+        all.wall_collisions = tally_.wall_collisions;
+        return all;
+    }
+    [[nodiscard]] double virial() const { return tally_.virial.value(); }
+    [[nodiscard]] SavedSum saved_virial() const { return tally_.virial.saved(); }
 
  protected:
     Engine(const Bodies& bodies, const EngineStart& start);
-    void count(const CollisionNote& note);
     [[nodiscard]] static std::uint32_t most_events(std::span<const BallRecord> records);
 
     const Bodies& bodies_;
     std::function<void(const Collision&)> listener_;
-    Counts counts_;
-    OrderedSum virial_;
+    Counts counts_;  // but for the collisions
+    Tally tally_;
 };
 
 /// Puts a ball's flights together, from its anchor and those that it has overwritten.

@@ -35,6 +35,7 @@
 #include "ball_record.hpp"
 #include "bodies.hpp"
 #include "executor.hpp"
+#include "ordered_sum.hpp"
 #include "region.hpp"
 #include "sights.hpp"
 
@@ -55,6 +56,23 @@ struct CollisionNote {
     std::uint32_t higher_stamp = 0;  ///< of the other one, where it moves
     bool is_wall = false;
     double virial = 0;
+};
+
+/// What collisions come to, whatever their order.
+struct Tally {
+    std::uint64_t ball_collisions = 0;
+    std::uint64_t wall_collisions = 0;
+    OrderedSum virial;
+
+    void count(const CollisionNote& note) {
+        ++(note.is_wall ? wall_collisions : ball_collisions);
+        if (!note.is_wall) virial += note.virial;
+    }
+    void count(const Tally& other) {
+        ball_collisions += other.ball_collisions;
+        wall_collisions += other.wall_collisions;
+        virial += other.virial;
+    }
 };
 
 /// What a collision does to a ball.

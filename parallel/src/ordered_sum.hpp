@@ -33,6 +33,12 @@ class OrderedSum {
             is_lost_ = true;
         return *this;
     }
+    /// Precondition: both have one scale, or the other one no terms.
+    OrderedSum& operator+=(const OrderedSum& other) {
+        sum_ += other.sum_;
+        is_lost_ = is_lost_ || other.is_lost_;
+        return *this;
+    }
     [[nodiscard]] double value() const {
         if (is_lost_) return std::numeric_limits<double>::quiet_NaN();
         return std::ldexp(static_cast<double>(sum_), -exponent_);

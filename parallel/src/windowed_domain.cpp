@@ -207,8 +207,7 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     const auto self = static_cast<std::uint32_t>(&d - domains_.data());
     d.clear_outcome();
     std::swap(d.overwritten, loop.overwritten);
-    std::swap(d.notes, loop.notes);
-    std::swap(d.collisions, loop.collisions);
+    d.take_notes(loop, bodies_.physics.typical_virial);
     std::swap(d.touched, loop.touched);
     d.events = loop.events;
     d.copied_collisions =

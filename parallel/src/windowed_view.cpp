@@ -21,10 +21,17 @@ void WindowedEngine::advance_to(const Time& end, const Time& horizon) {
 void WindowedEngine::tell_until(const Stop& end) {
     std::vector<Told> told;
     for (DomainState& d : domains_) {
-        for (; d.told < d.notes.size() && d.notes[d.told].time <= end.time; ++d.told) {
-            count(d.notes[d.told]);
-            if (listener_) told.push_back({&d.notes[d.told], &d.collisions[d.told]});
-        }
+        const std::size_t first = d.told;
+        const auto is_past = [&end](const CollisionNote& note) { return note.time <= end.time; };
+        const auto last =
+            std::partition_point(d.notes.begin() + std::ptrdiff_t(first), d.notes.end(), is_past);
+        d.told = std::size_t(last - d.notes.begin());
+        if (first == 0 && last == d.notes.end())  // its thread has counted them
+            tally_.count(d.tally);
+        else
+            for (std::size_t k = first; k < d.told; ++k) tally_.count(d.notes[k]);
+        for (std::size_t k = first; listener_ && k < d.told; ++k)
+            told.push_back({&d.notes[k], &d.collisions[k]});
     }
     std::ranges::sort(told, {}, [](const Told& t) { return t.note->time; });
     for (auto first = told.begin(); first != told.end();) {
@@ -218,10 +225,7 @@ void WindowedEngine::rewind_to_now() {
     if (!in_window_ || (window_end_.time == now_ && window_end_.is_whole)) return;
     // The window again, up to now only; its events are counted and told already.
     window_end_ = run_together({now_}, false);
-    for (DomainState& d : domains_) {
-        d.notes.clear();
-        d.collisions.clear();
-    }
+    for (DomainState& d : domains_) d.forget_notes();
 }
 
 void WindowedEngine::listen(std::function<void(const Collision&)> listener) {
