@@ -470,7 +470,7 @@ Edits random_edit(const World& world, std::mt19937_64& random) {
 
 /// Runs a scene through random edits; where one is refused nothing has changed.
 Outcome run_with_edits(const Scene& scene, const WorldOptions& options, std::uint64_t seed, double frame) {
-    constexpr double kEnd = kIsSanitized ? 1 : 4;
+    constexpr double kEnd = kIsSanitized ? 2 : 4;
     std::mt19937_64 random(seed);
     Outcome out;
     World world(scene, options);
