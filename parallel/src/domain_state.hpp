@@ -39,7 +39,6 @@ struct BallOutcome {
 struct CopyOutcome {
     Origin origin;
     std::uint64_t history = 0;
-    std::int32_t mark = 0;  ///< of its cell in the region, at the start of the window
     bool is_lost = false;   ///< given up before the window's end
 };
 
@@ -136,10 +135,18 @@ struct DomainState {
     std::unique_ptr<Workshop> workshop;
     bool can_go_on = false;  ///< the workshop holds what the last window came to
 
-    /// The collisions that count here are those that a loop has noted.
-    void take_notes(EventLoop& loop, double typical_virial) {
+    /// Tables that a loop fills change hands, before the window so that it fills the same ones each time: few
+    /// lie in the cache.
+    void swap_tables(EventLoop& loop) {
+        std::swap(overwritten, loop.overwritten);
         std::swap(notes, loop.notes);
         std::swap(collisions, loop.collisions);
+        std::swap(touched, loop.touched);
+        std::swap(meetings, loop.meetings);
+        std::swap(visits, loop.visits);
+    }
+    /// The collisions that count here are those that a loop has noted.
+    void count_notes(double typical_virial) {
         tally.virial.set_scale(typical_virial);
         for (const CollisionNote& note : notes) tally.count(note);
     }

@@ -33,15 +33,7 @@ void EventLoop::clear(const Region& region, const Time& now) {
         std::fill_n(is_inside_.begin() + y * row + 1, std::max<std::ptrdiff_t>(row - 2, 0), std::uint8_t{1});
     epoch_ = now.epoch;
     now_ = now.offset;
-    empty(records_, locals_, radius_, acceleration_, last_collision_, large_, free_);
-    forget_window();
-}
-
-void EventLoop::go_on() {
-    for (Local& local : locals_) {
-        local.history = 0;
-        local.last_overwritten = kNowhere;
-    }
+    empty(records_, locals_, radius_, acceleration_, last_collision_, large_, free_, touched_at_start_);
     forget_window();
 }
 
@@ -51,19 +43,21 @@ void EventLoop::forget_window() {
     events = collisions_of_all = 0;
     empty(notes, collisions, overwritten, visits, meetings);
     if (!keeps_window) return;
-    touched.assign(static_cast<std::size_t>(region_.mark_count()), 0);
-    // The domain's own cells are touched, and those beside them.
-    const auto own_marks = [](const RegionAxis& axis) {
-        std::vector<std::int32_t> marks;
-        for (std::int32_t m = 0; m < axis.mark_count(); ++m)
-            if (axis.depth(axis.marked(m)) <= 1) marks.push_back(m);
-        return marks;
-    };
-    const std::vector<std::int32_t> columns = own_marks(region_.x);
-    const auto width = static_cast<std::size_t>(region_.x.mark_count());
-    for (const std::int32_t y : own_marks(region_.y))
-        for (const std::int32_t x : columns)
-            touched[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1;
+    if (touched_at_start_.empty()) {
+        touched_at_start_.assign(static_cast<std::size_t>(region_.mark_count()), 0);
+        const auto own_marks = [](const RegionAxis& axis) {
+            std::vector<std::int32_t> marks;
+            for (std::int32_t m = 0; m < axis.mark_count(); ++m)
+                if (axis.depth(axis.marked(m)) <= 1) marks.push_back(m);
+            return marks;
+        };
+        const std::vector<std::int32_t> columns = own_marks(region_.x);
+        const auto width = static_cast<std::size_t>(region_.x.mark_count());
+        for (const std::int32_t y : own_marks(region_.y))
+            for (const std::int32_t x : columns)
+                touched_at_start_[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1;
+    }
+    touched = touched_at_start_;
 }
 
 void EventLoop::add(const BallRecord& record, const BallExtra* extra, bool is_owned, const Time& end) {

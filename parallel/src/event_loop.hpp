@@ -141,8 +141,8 @@ class EventLoop {
     [[nodiscard]] bool can_go_on(const Region& region, const Time& now) const {
         return region == region_ && bodies_.large.empty() && time_now() == now;
     }
-    /// Forgets what the last window came to. The balls stay.
-    void go_on();
+    /// Forgets what the last window came to; the balls, whose traces are taken already, stay.
+    void go_on() { forget_window(); }
     /// Ball i as its owner has it now; it is a copy, or was one until now.
     virtual void renew(std::uint32_t i, const BallRecord& record, const BallExtra& extra, bool is_owned,
                        const Time& end) = 0;
@@ -188,8 +188,15 @@ class EventLoop {
     [[nodiscard]] BallExtra extra(std::uint32_t i) const;
     /// Ball i's state at `t` >= its anchor.
     [[nodiscard]] BallState state(std::uint32_t i, const Time& t) const;
-    /// A mark of all that ball i has done since clear().
-    [[nodiscard]] std::uint64_t history(std::uint32_t i) const { return locals_[i].history; }
+    /// A mark of all that ball i has done since the window's start, and the same as last_overwritten().
+    struct Trace {
+        std::uint64_t history = 0;
+        std::uint32_t last_overwritten = kNowhere;
+    };
+    /// Gives it and forgets it, for the next window.
+    [[nodiscard]] Trace take_trace(std::uint32_t i) {
+        return {std::exchange(locals_[i].history, 0), std::exchange(locals_[i].last_overwritten, kNowhere)};
+    }
     void forget_anchors();
     /// Whether a copy was given up before `end`.
     [[nodiscard]] bool is_lost(std::uint32_t i, const Time& end) const {
@@ -298,6 +305,7 @@ class EventLoop {
         Doubles min, inverse_width, count, width;
     };
     Axes axes_;
+    std::vector<std::uint8_t> touched_at_start_;  // the domain's own cells and those beside them
     std::vector<std::uint8_t> is_inside_;  // one a place: whether the cells beside it lie beside it there too
 
     // One a ball, in the order of add(): what only this loop needs of it.

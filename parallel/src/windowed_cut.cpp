@@ -92,19 +92,8 @@ void WindowedEngine::split_anew() {
 
 /// Where the balls of one of domain d's rosters are.
 void WindowedEngine::index(const DomainState& d, Roster& roster) const {
-    roster.cells_x = roster.cells_y = {GridAxis::kFarthest, -GridAxis::kFarthest};
-    roster.near_border.clear();
-    roster.cells.resize(roster.records.size());
-    const auto is_near = [this](const Span& own, std::int32_t k) {
-        return k < own.first + halo_ || k >= own.last - halo_;
-    };
-    for (std::uint32_t k = 0; k < roster.records.size(); ++k) {
-        const CellCoordinates c = fold_periodic(bodies_.grid, roster.records[k].anchor.cell);
-        if (is_near(d.x, c.x) || is_near(d.y, c.y)) roster.near_border.push_back(k);
-        roster.cells[k] = c;
-        roster.cells_x = {std::min(roster.cells_x.first, c.x), std::max(roster.cells_x.last, c.x + 1)};
-        roster.cells_y = {std::min(roster.cells_y.first, c.y), std::max(roster.cells_y.last, c.y + 1)};
-    }
+    Index index(*this, d, roster);
+    for (std::uint32_t k = 0; k < roster.records.size(); ++k) index.add(k, roster.records[k]);
 }
 
 }  // namespace carom

@@ -138,11 +138,17 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
     w.own.clear();
     w.copies.clear();
     std::vector<std::uint32_t> left;
+    auto near = d.start.near_border.begin();
     for (std::uint32_t k = 0; k < d.start.places.size(); ++k) {
-        const CellCoordinates& c = d.start.cells[k];
         const std::uint32_t i = d.start.places[k];
-        const std::int32_t depth = region.depth(region.framed(c));
         w.origins[i] = {static_cast<std::uint32_t>(self), k};
+        if (near == d.start.near_border.end() || *near != k) {
+            w.own.push_back(i);
+            continue;
+        }
+        ++near;
+        const CellCoordinates& c = d.start.cells[k];
+        const std::int32_t depth = region.depth(region.framed(c));
         if (depth == 0) {
             w.own.push_back(i);
         } else if (region.x.covers(c.x) && region.y.covers(c.y)) {
@@ -185,6 +191,7 @@ void WindowedEngine::run(DomainState& d, const Stop& window_end, Workshop& w) {
     w.loop->keeps_window = w.loop->keeps_anchors = true;
     w.loop->is_patient = false;  // all balls together will tell
     d.region = {bodies_.grid, d.x, d.y, d.halo};
+    d.swap_tables(*w.loop);
     if (d.can_go_on && w.loop->can_go_on(d.region, window_start_)) {
         go_on(w, self, d.region, d.halo, window_end.time);
     } else {
@@ -206,55 +213,34 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     EventLoop& loop = *w.loop;
     const auto self = static_cast<std::uint32_t>(&d - domains_.data());
     d.clear_outcome();
-    std::swap(d.overwritten, loop.overwritten);
-    d.take_notes(loop, bodies_.physics.typical_virial);
-    std::swap(d.touched, loop.touched);
+    d.swap_tables(loop);
+    d.count_notes(bodies_.physics.typical_virial);
     d.events = loop.events;
     d.copied_collisions =
         loop.collisions_of_all - std::min<std::uint64_t>(loop.collisions_of_all, d.notes.size());
-    keep_own(d, w);
     d.copies.reserve(w.copies.size());
     std::vector<std::uint32_t>& copy_of = w.places;
     copy_of.resize(loop.size());
     for (const std::uint32_t i : w.copies) {
-        const CellCoordinates c = domains_[w.origins[i].domain].start.cells[w.origins[i].index];
         copy_of[i] = static_cast<std::uint32_t>(d.copies.size());
-        d.copies.push_back(
-            {w.origins[i], loop.history(i), d.region.mark(d.region.framed(c)), loop.is_lost(i, window_end)});
+        const bool is_lost = loop.is_lost(i, window_end);
+        d.copies.push_back({w.origins[i], loop.take_trace(i).history, is_lost});
     }
     d.last_overwritten.resize(w.own.size());
-    for (std::uint32_t k = 0; k < w.own.size(); ++k) {
-        const std::uint32_t i = w.own[k];
-        const Origin& origin = d.end.origins[k];
-        d.last_overwritten[k] = loop.last_overwritten(i);
-        domains_[origin.domain].outcomes[origin.index] = {loop.history(i), self};
-        const NextEvent& next = d.end.records[k].next;
+    keep_own(d, w, [&](std::uint32_t k, std::uint32_t i) {
+        const Origin& origin = w.origins[i];
+        const EventLoop::Trace trace = loop.take_trace(i);
+        d.last_overwritten[k] = trace.last_overwritten;
+        domains_[origin.domain].outcomes[origin.index] = {trace.history, self};
+        const NextEvent& next = loop.records()[i].next;
         // The partner's place may be free, or another ball's, where the partner has left the region.
-        if (next.local != kNowhere && loop.id(next.local) == next.partner && !loop.is_owned(next.local))
+        if (next.local != kNowhere && !loop.is_owned(next.local) && loop.id(next.local) == next.partner)
             d.partners_of_copies.push_back({k, copy_of[next.local]});
-    }
-    std::swap(d.meetings, loop.meetings);
+    });
     for (Meeting& m : d.meetings) m.copy = copy_of[m.copy];
-    std::swap(d.visits, loop.visits);
     for (const Visit& v : d.visits)
         if (!d.region.x.is_deep_inside(v.cell.x, halo_) || !d.region.y.is_deep_inside(v.cell.y, halo_))
             d.visits_near_border.push_back({w.origins[v.ball], fold_periodic(bodies_.grid, v.cell)});
-}
-
-/// The domain's own balls as they are in a loop. All is written over, for it is as long as the time before.
-void WindowedEngine::keep_own(DomainState& d, const Workshop& w) const {
-    d.end.places = w.own;
-    d.end.origins.resize(w.own.size());
-    d.end.records.resize(w.own.size());
-    for (std::size_t k = 0; k < w.own.size(); ++k) {
-        d.end.origins[k] = w.origins[w.own[k]];
-        d.end.records[k] = w.loop->records()[w.own[k]];
-    }
-    d.end.extras.clear();
-    d.end.unknown.clear();
-    if (bodies_.needs_extras())
-        for (const std::uint32_t i : w.own) d.end.extras.push_back(w.loop->extra(i));
-    index(d, d.end);
 }
 
 /// The visits of a domain's own balls, for another one whose halo has been widened.
@@ -272,23 +258,28 @@ std::vector<OwnVisit> WindowedEngine::all_visits(const DomainState& d) const {
 void WindowedEngine::compare(DomainState& d) const {
     empty(d.unseen, d.sums);
     if (d.failed || is_active(Fault::kUnlikeCopies)) return;
+    // A cell that the domain has touched, of a ball that it has not followed.
     const auto see = [this, &d](const Origin& ball, const CellCoordinates& cell) {
         d.unseen.push_back({domains_[ball.domain].outcomes[ball.index].owner, cell});
+    };
+    const auto has_touched = [&d](const CellCoordinates& cell) {
+        const std::int32_t mark = d.region.mark(d.region.framed(cell));
+        return mark >= 0 && d.touched[static_cast<std::size_t>(mark)] != 0;
     };
     std::vector<std::uint8_t> is_right(d.copies.size());
     for (std::size_t k = 0; k < d.copies.size(); ++k) {
         const CopyOutcome& copy = d.copies[k];
         const DomainState& holder = domains_[copy.origin.domain];
         is_right[k] = !copy.is_lost && copy.history == holder.outcomes[copy.origin.index].history;
-        if (!is_right[k] && d.touched[static_cast<std::size_t>(copy.mark)])
-            see(copy.origin, holder.start.cells[copy.origin.index]);
+        if (is_right[k]) continue;
+        if (const CellCoordinates& cell = holder.start.cells[copy.origin.index]; has_touched(cell))
+            see(copy.origin, cell);
     }
     for (const DomainState& other : domains_) {
         if (&other == &d || !d.region.meets(other.region)) continue;
         const std::vector<OwnVisit> widely = d.halo > halo_ ? all_visits(other) : std::vector<OwnVisit>{};
         for (const OwnVisit& v : d.halo > halo_ ? widely : other.visits_near_border) {
-            const std::int32_t mark = d.region.mark(d.region.framed(v.cell));
-            if (mark < 0 || !d.touched[static_cast<std::size_t>(mark)]) continue;
+            if (!has_touched(v.cell)) continue;
             const auto copy = std::ranges::lower_bound(d.copies, v.origin, {}, &CopyOutcome::origin);
             if (copy == d.copies.end() || copy->origin != v.origin ||
                 !is_right[static_cast<std::size_t>(copy - d.copies.begin())])

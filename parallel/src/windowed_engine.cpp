@@ -120,7 +120,9 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
         d.end.places.push_back(static_cast<std::uint32_t>(d.end.places.size()));
     }
     for (DomainState& d : domains_) index(d, d.end);
-    domains_.front().take_notes(loop, bodies_.physics.typical_virial);
+    std::swap(domains_.front().notes, loop.notes);
+    std::swap(domains_.front().collisions, loop.collisions);
+    domains_.front().count_notes(bodies_.physics.typical_virial);
     domains_.front().events = loop.events;
     return loop.is_full() ? Stop{loop.time_now()} : window_end;
 }
@@ -151,7 +153,7 @@ void WindowedEngine::predict_anew(bool renews_field) {
         w.loop->predict_all(nullptr);
         d.clear_outcome();
         d.events = w.loop->events;
-        keep_own(d, w);
+        keep_own(d, w, [](std::uint32_t, std::uint32_t) {});
     });
     in_window_ = true;
     window_end_ = {window_start_};

@@ -61,6 +61,7 @@ class WindowedEngine final : public Engine {
     void cut(std::span<BallInCell> balls, Span x, Span y, int parts, const MakeDomain& make_domain) const;
     void split_anew();
     void index(const DomainState& d, Roster& roster) const;
+    class Index;
     void add_residents(std::uint32_t self, const Region& region, Workshop& w) const;
     void pack(std::uint32_t from, const Region& region, std::int32_t halo,
               std::vector<BallMessage>& message) const;
@@ -74,7 +75,10 @@ class WindowedEngine final : public Engine {
     static constexpr std::int32_t kEverything = std::numeric_limits<std::int32_t>::max();  // as a halo
     void run(DomainState& d, const Stop& window_end);
     void run(DomainState& d, const Stop& window_end, Workshop& w);
-    void keep_own(DomainState& d, const Workshop& w) const;
+    /// The domain's own balls as they are in a loop, each of which is shown to look(index, place) as well: in
+    /// one pass, for it is long, and written over, for it is as long as the time before.
+    template <class F>
+    void keep_own(DomainState& d, const Workshop& w, F&& look) const;
     void keep_outcome(DomainState& d, Workshop& w, const Time& window_end);
     [[nodiscard]] std::vector<OwnVisit> all_visits(const DomainState& d) const;
     void compare(DomainState& d) const;
@@ -135,6 +139,64 @@ class WindowedEngine final : public Engine {
     int since_split_ = 0;
     bool was_quiet_ = false;  // the last window had no event
 };
+
+/// Notes where the balls of one of a domain's rosters are, one after the other.
+class WindowedEngine::Index {
+ public:
+    Index(const WindowedEngine& engine, const DomainState& d, Roster& roster)
+        : grid_(engine.bodies_.grid), roster_(roster), inner_x_(inner(d.x, engine)), inner_y_(inner(d.y, engine)) {
+        roster.cells.resize(roster.records.size());
+        roster.near_border.resize(roster.records.size());
+    }
+    ~Index() {
+        roster_.near_border.resize(near_);
+        roster_.cells_x = x_;
+        roster_.cells_y = y_;
+    }
+    Index(const Index&) = delete;
+    Index& operator=(const Index&) = delete;
+
+    void add(std::uint32_t k, const BallRecord& record) {
+        const CellCoordinates c = fold_periodic(grid_, record.anchor.cell);
+        roster_.cells[k] = c;
+        roster_.near_border[near_] = k;
+        near_ += inner_x_.contains(c.x) && inner_y_.contains(c.y) ? 0 : 1;
+        x_ = {std::min(x_.first, c.x), std::max(x_.last, c.x + 1)};
+        y_ = {std::min(y_.first, c.y), std::max(y_.last, c.y + 1)};
+    }
+
+ private:
+    static Span inner(const Span& own, const WindowedEngine& engine) {
+        return {own.first + engine.halo_, own.last - engine.halo_};
+    }
+    const Grid& grid_;
+    Roster& roster_;
+    Span inner_x_, inner_y_;  // cells that no halo as wide as all start with reaches
+    std::size_t near_ = 0;
+    Span x_{GridAxis::kFarthest, -GridAxis::kFarthest};
+    Span y_ = x_;
+};
+
+template <class F>
+void WindowedEngine::keep_own(DomainState& d, const Workshop& w, F&& look) const {
+    Roster& end = d.end;
+    const auto count = static_cast<std::uint32_t>(w.own.size());
+    end.places = w.own;
+    end.origins.resize(count);
+    end.records.resize(count);
+    end.extras.resize(bodies_.needs_extras() ? count : 0);
+    end.unknown.clear();
+    const std::span<const BallRecord> records = w.loop->records();
+    Index index(*this, d, end);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t i = w.own[k];
+        end.origins[k] = w.origins[i];
+        end.records[k] = records[i];
+        if (!end.extras.empty()) end.extras[k] = w.loop->extra(i);
+        index.add(k, records[i]);
+        look(k, i);
+    }
+}
 
 /// A workshop taken from the idle ones for a while.
 class WindowedEngine::Lease {
