@@ -24,15 +24,13 @@ void WindowedEngine::pack(std::uint32_t from, const Region& region, std::int32_t
                           std::vector<BallMessage>& message) const {
     const Roster& source = domains_[from].start;
     if (!region.x.meets(source.cells_x) || !region.y.meets(source.cells_y)) return;
+    const BallExtra none;
     const auto pack_one = [&](std::uint32_t k) {
         const CellCoordinates& c = source.cells[k];
         if (!region.x.covers(c.x) || !region.y.covers(c.y)) return;
-        BallMessage& ball = message.emplace_back();
-        ball.record = source.records[k];
-        if (!source.extras.empty()) ball.extra = source.extras[k];
-        ball.origin = {from, k};
-        if (!source.origins.empty()) ball.before = source.origins[k];
-        ball.depth = region.depth(region.framed(c));
+        message.emplace_back(source.records[k], source.extras.empty() ? none : source.extras[k],
+                             Origin{from, k}, source.origins.empty() ? Origin{} : source.origins[k],
+                             region.depth(region.framed(c)));
     };
     if (halo <= halo_)
         std::ranges::for_each(source.near_border, pack_one);
@@ -135,29 +133,24 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
 
     // The domain's own balls, and those of them that have left its cells.
     const DomainState& d = domains_[self];
-    w.own.clear();
+    for (std::uint32_t k = 0; k < d.start.places.size(); ++k)
+        w.origins[d.start.places[k]] = {static_cast<std::uint32_t>(self), k};
+    w.own = d.start.places;
     w.copies.clear();
     std::vector<std::uint32_t> left;
-    auto near = d.start.near_border.begin();
-    for (std::uint32_t k = 0; k < d.start.places.size(); ++k) {
-        const std::uint32_t i = d.start.places[k];
-        w.origins[i] = {static_cast<std::uint32_t>(self), k};
-        if (near == d.start.near_border.end() || *near != k) {
-            w.own.push_back(i);
-            continue;
-        }
-        ++near;
+    for (const std::uint32_t k : d.start.near_border) {
         const CellCoordinates& c = d.start.cells[k];
         const std::int32_t depth = region.depth(region.framed(c));
-        if (depth == 0) {
-            w.own.push_back(i);
-        } else if (region.x.covers(c.x) && region.y.covers(c.y)) {
+        if (depth == 0) continue;
+        const std::uint32_t i = std::exchange(w.own[k], kNowhere);
+        if (region.x.covers(c.x) && region.y.covers(c.y)) {
             loop.hand_over(i, end_at(ends, depth));
             left.push_back(i);
         } else {
             loop.remove(i);
         }
     }
+    std::erase(w.own, kNowhere);
     for (const std::uint32_t k : d.start.unknown)
         if (loop.id(d.start.places[k]) != kNowhere) w.unknown.push_back(d.start.places[k]);
     for (std::size_t k = 0; k < w.message.size(); ++k) {
@@ -220,7 +213,7 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
         loop.collisions_of_all - std::min<std::uint64_t>(loop.collisions_of_all, d.notes.size());
     d.copies.reserve(w.copies.size());
     std::vector<std::uint32_t>& copy_of = w.places;
-    copy_of.resize(loop.size());
+    copy_of.assign(loop.size(), kNowhere);
     for (const std::uint32_t i : w.copies) {
         copy_of[i] = static_cast<std::uint32_t>(d.copies.size());
         const bool is_lost = loop.is_lost(i, window_end);
@@ -233,9 +226,10 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
         d.last_overwritten[k] = trace.last_overwritten;
         domains_[origin.domain].outcomes[origin.index] = {trace.history, self};
         const NextEvent& next = loop.records()[i].next;
-        // The partner's place may be free, or another ball's, where the partner has left the region.
-        if (next.local != kNowhere && !loop.is_owned(next.local) && loop.id(next.local) == next.partner)
-            d.partners_of_copies.push_back({k, copy_of[next.local]});
+        const std::uint32_t copy = next.local == kNowhere ? kNowhere : copy_of[next.local];
+        // The partner's place may be another ball's where the partner has left the region.
+        if (copy != kNowhere && loop.id(next.local) == next.partner)
+            d.partners_of_copies.push_back({k, copy});
     });
     for (Meeting& m : d.meetings) m.copy = copy_of[m.copy];
     for (const Visit& v : d.visits)
