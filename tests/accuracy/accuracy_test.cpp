@@ -179,7 +179,6 @@ TEST(Bounce, KeepsEnergyAndSpeeds) {
 // A duration cuts off what comes later, and nothing else: not by an ulp.
 TEST(Duration, NeverCutsOffAHit) {
     SCOPED_TRACE("seed 60");
-    constexpr double kNever = std::numeric_limits<double>::infinity();
     for (const auto& kinds : {straight_kinds(), curved_kinds()}) {
         for (const DiscKind& kind : kinds) {
             test::Random random(60);

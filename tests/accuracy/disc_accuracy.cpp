@@ -11,9 +11,6 @@
 namespace carom::accuracy {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-/// A time this many units away is another root.
-constexpr Wide kOtherRoot = 1000;
 /// From here on the slow oracle is asked again.
 constexpr Wide kSuspicious = 4;
 

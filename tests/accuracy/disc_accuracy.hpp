@@ -10,6 +10,9 @@
 
 namespace carom::accuracy {
 
+/// A time this many units away is another root.
+inline constexpr Wide kOtherRoot = 1000;
+
 struct Effort {
     std::int64_t queries;
     /// One query in so many goes to the slow oracles too.

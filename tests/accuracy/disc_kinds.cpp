@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accuracy/across.hpp"
+
 namespace carom::accuracy {
 namespace {
 
 using test::Random;
-
-Vec2 across(const Vec2& n) {
-    return {-n.y(), n.x()};
-}
 
 /// From `distance` along a line that passes the centre at `parameter`, both in radii's sums s.
 DiscQuery aimed(Random& random, double distance, double parameter, double s, double speed) {
@@ -88,7 +86,7 @@ DiscQuery overlap(Random& random) {
     return {random.direction(1 - random.decades(-16, -0.01)), random.vector(1), {0, 0}, 1};
 }
 
-DiscQuery any_unit(Random& random) {
+DiscQuery discs_of_any_unit(Random& random) {
     const double length = random.decades(-25, 25);
     const double time = random.decades(-12, 12);
     DiscQuery q = generic(random);
@@ -168,7 +166,7 @@ std::vector<DiscKind> curved_kinds() {
             {"four roots", four_roots},
             {"acceleration 1e-30 to 1e12", accelerate(straight_query, -30, 12)},
             {"speeds 1e-12 to 1e12", accelerate_by_speed},
-            {"lengths 1e-25 to 1e25", any_unit},
+            {"lengths 1e-25 to 1e25", discs_of_any_unit},
             {"radii 1 to 1e6, 1e-6", accelerate(size_ratio, -3, 1)},
             {"start in contact", accelerate(contact, -6, 2)},
             {"start in overlap", accelerate(overlap, -3, 1)}};

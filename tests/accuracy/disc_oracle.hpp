@@ -2,11 +2,16 @@
 // allows, else in exact fractions. And how well conditioned a query is.
 #pragma once
 
+#include <limits>
+
 #include <carom/core/vector.hpp>
 
 #include "accuracy/quad_polynomial.hpp"
 
 namespace carom::accuracy {
+
+/// The time of an impact that never comes.
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct DiscQuery {
     Vec2 r, v, a;

@@ -14,9 +14,6 @@ namespace carom::accuracy {
 namespace {
 
 constexpr int kBlocks = 1024;
-// Collisions of a disc until the start is forgotten, at the slowest: a dense lattice melts, and heat spreads
-// over the box, which takes L^2 / (4 pi^2 D), some hundred collisions for 1,024 dense discs.
-constexpr double kRelaxation = 1000;
 
 /// Z of the infinite fluid and the bound of its error, where the reference has the packing.
 std::pair<double, double> reference(double packing) {
@@ -60,6 +57,9 @@ Scene two_disc_scene(double side, test::Random& random) {
 std::vector<Figure> periodic_gas(const GasRun& run) {
     World world(filled_box(run, kEqualDiscs, Boundary::kPeriodic), run.options);
     const double rate = collision_rate(run.packing);
+    // Collisions of a disc until the start is forgotten, at the slowest: a dense lattice melts, and heat
+    // spreads over the box, which takes L^2 / (4 pi^2 D), some hundred collisions for 1,024 dense discs.
+    constexpr double kRelaxation = 1000;
     world.advance_to(std::min(kRelaxation, run.collisions / 4) / rate);
     const GasSeries series = measure_gas(world, kBlocks, run.collisions / rate / kBlocks);
     const double temperature = periodic_temperature(world);

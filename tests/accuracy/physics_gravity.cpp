@@ -10,8 +10,7 @@
 namespace carom::accuracy {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr int kClasses = 32;
+constexpr int kHeightClasses = 32;
 constexpr double kColumnRelaxation = 4000;  // collisions of a disc at the floor: the slowest sound dies away
 
 /// Heights of an ideal gas over a floor, of N discs of energy E, of which a height takes m g h: the others
@@ -24,8 +23,8 @@ struct IdealHeights {
     /// Ends of equally probable classes.
     [[nodiscard]] std::vector<double> class_ends() const {
         std::vector<double> ends;
-        for (int k = 1; k < kClasses; ++k)
-            ends.push_back(top * -std::expm1(std::log1p(-static_cast<double>(k) / kClasses) / power));
+        for (int k = 1; k < kHeightClasses; ++k)
+            ends.push_back(top * -std::expm1(std::log1p(-static_cast<double>(k) / kHeightClasses) / power));
         return ends;
     }
 };
@@ -50,13 +49,13 @@ class Heights {
     /// `interaction`: what the discs' size changes, relative.
     void append(std::vector<Figure>& figures, const std::string& system, double interaction) const {
         // The sum of the heights fluctuates half as much at given energy as it does at given temperature.
-        const double freedom = kClasses - 1 - 0.5;
+        const double freedom = kHeightClasses - 1 - 0.5;
         figures.push_back({"mean height over that of an ideal gas", system,
                            scaled(mean_of(first_), 1 / ideal_.mean()), 1, interaction});
         figures.push_back({"mean squared height over that of an ideal gas", system,
                            scaled(mean_of(second_), 1 / ideal_.mean_square()), 1, 2 * interaction});
         figures.push_back(
-            {fmt::format("chi-square of {:.0f} heights in {} classes", classes_.total(), kClasses),
+            {fmt::format("chi-square of {:.0f} heights in {} classes", classes_.total(), kHeightClasses),
              system,
              {classes_.chi_square(), std::sqrt(2 * freedom)},
              freedom,
@@ -109,7 +108,7 @@ class Profile {
         const double area = column.width() * kSlab;
         const double density = mean_of(level.near).value / area;
         const double warmth = mean_of(temperature_).value;
-        const double packing = density * kPi / 4;
+        const double packing = density * std::numbers::pi / 4;
         const double z = compressibility(packing);
         const double dp_dn = warmth * stiffness(packing);
         std::vector<double> differences(level.above.size()), pressures(level.above.size());
@@ -141,7 +140,7 @@ std::string column_name(const GasRun& run) {
 // Width and scale height are about equal: density times their product is N.
 std::vector<Figure> dilute_column(const GasRun& run) {
     const auto discs = static_cast<double>(run.discs);
-    const double scale_height = std::sqrt(discs / (run.packing * 4 / kPi));
+    const double scale_height = std::sqrt(discs / (run.packing * 4 / std::numbers::pi));
     const Column column(run.discs, run.packing, scale_height, scale_height / 5);
     World world(column.scene(run.seed), run.options);
     const double rate = collision_rate(run.packing) / 2;  // the density that a disc meets is half the floor's

@@ -9,10 +9,7 @@
 namespace carom::accuracy {
 namespace {
 
-// Collisions of a disc in a block: the sorts have lost some of the energy that one had too much of.
-constexpr double kBetweenLooks = 4;
-constexpr double kRelaxation = 100;  // collisions of a disc
-constexpr double kDilute = 0.05;     // packing up to which theory's rates of collisions are good to 1e-3
+constexpr double kDilute = 0.05;  // packing up to which theory's rates of collisions are good to 1e-3
 
 /// Discs of the first species have the first ids.
 struct Species {
@@ -70,6 +67,7 @@ std::vector<Figure> periodic_mixture(const GasRun& run, const Mixture& mixture) 
         mixture, static_cast<std::size_t>(std::llround(static_cast<double>(run.discs) * mixture.share[0])),
         run.discs};
     const double usual = collision_rate(run.packing);
+    constexpr double kRelaxation = 100;  // collisions of a disc
     world.advance_to(kRelaxation / usual);
     std::array<double, 3> hits{};  // of two of the first sort, one of each, two of the second
     world.on_collision([&](const Collision& c) {
@@ -78,6 +76,8 @@ std::vector<Figure> periodic_mixture(const GasRun& run, const Mixture& mixture) 
     });
     std::array<std::vector<double>, 3> hits_of_blocks;
     std::vector<double> shares;
+    // Collisions of a disc in a block: the sorts have lost some of the energy that one had too much of.
+    constexpr double kBetweenLooks = 4;
     const GasSeries series =
         measure_gas(world, static_cast<int>(run.collisions / kBetweenLooks), kBetweenLooks / usual, [&] {
             for (std::size_t k = 0; k < 3; ++k) hits_of_blocks[k].push_back(std::exchange(hits[k], 0));

@@ -10,11 +10,7 @@
 namespace carom::accuracy {
 namespace {
 
-constexpr int kClasses = 64;
-// Collisions of a disc between two looks. What is left of its velocity, some e^-2, enters chi-square by its
-// sixth power, for the moments that energy and momentum do not fix are the third and higher ones.
-constexpr double kBetweenLooks = 5;
-constexpr double kRelaxation = 50;
+constexpr int kVelocityClasses = 64;
 
 /// The same gas with speeds that are all equal, but for the total momentum.
 Scene with_equal_speeds(Scene scene, std::uint64_t seed) {
@@ -34,8 +30,8 @@ std::vector<double> class_ends(std::size_t discs, double energy) {
     const double dimensions = 2 * static_cast<double>(discs - 1);
     const double reach = std::sqrt(2 * energy * (1 - 1 / static_cast<double>(discs)));
     std::vector<double> ends;
-    for (int k = 1; k < kClasses; ++k) {
-        const double centred = 2.0 * k / kClasses - 1;  // probability of |v| below, with v's sign
+    for (int k = 1; k < kVelocityClasses; ++k) {
+        const double centred = 2.0 * k / kVelocityClasses - 1;  // probability of |v| below, with v's sign
         const double square = boost::math::ibeta_inv(0.5, (dimensions - 1) / 2, std::abs(centred));
         ends.push_back(std::copysign(reach * std::sqrt(square), centred));
     }
@@ -56,8 +52,9 @@ double kurtosis(const PlaneVectors& velocities) {
 /// Energy and momentum are the same at each look, which fixes two of the sums that the classes make, those of
 /// v and v^2, to within a twentieth for classes as fine as these; the others it changes by about 1 / N.
 Figure chi_square(const GasRun& run, const EqualClasses& classes) {
-    const double freedom = kClasses - 1 - 2;
-    return {fmt::format("chi-square of {:.0f} velocity components in {} classes", classes.total(), kClasses),
+    const double freedom = kVelocityClasses - 1 - 2;
+    return {fmt::format("chi-square of {:.0f} velocity components in {} classes", classes.total(),
+                        kVelocityClasses),
             system_name(run),
             {classes.chi_square(), std::sqrt(2 * freedom)},
             freedom,
@@ -69,9 +66,13 @@ Figure chi_square(const GasRun& run, const EqualClasses& classes) {
 std::vector<Figure> maxwell_distribution(const GasRun& run) {
     World world(with_equal_speeds(filled_box(run, kEqualDiscs, Boundary::kPeriodic), run.seed), run.options);
     const double rate = collision_rate(run.packing);
+    constexpr double kRelaxation = 50;  // collisions of a disc
     world.advance_to(kRelaxation / rate);
     EqualClasses classes(class_ends(run.discs, world.kinetic_energy()));
     std::vector<double> kurtoses;
+    // Collisions of a disc between two looks. What is left of its velocity, some e^-2, enters chi-square by
+    // its sixth power, for the moments that energy and momentum do not fix are the third and higher ones.
+    constexpr double kBetweenLooks = 5;
     run_blocks(world, static_cast<int>(run.collisions / kBetweenLooks), kBetweenLooks / rate, [&] {
         const PlaneVectors velocities = world.velocities();
         kurtoses.push_back(kurtosis(velocities));

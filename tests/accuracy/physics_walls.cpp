@@ -6,8 +6,6 @@
 namespace carom::accuracy {
 namespace {
 
-constexpr double kRelaxation = 50;  // collisions of a disc
-
 /// Sum of m r . v, with the origin in the middle of the box.
 double motion(const World& world) {
     double sum = 0;
@@ -35,6 +33,7 @@ double spread_of_motion(const World& world, double side, double temperature) {
 std::vector<Figure> walled_gas(const GasRun& run, const Mixture& mixture) {
     World world(filled_box(run, mixture, Boundary::kWall), run.options);
     const double rate = collision_rate(run.packing);
+    constexpr double kRelaxation = 50;  // collisions of a disc
     world.advance_to(kRelaxation / rate);
     const std::vector<Ball> balls = world.balls();
     const double side = side_of(run, mixture);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "accuracy/across.hpp"
 #include "accuracy/quad.hpp"
 #include "accuracy/tally.hpp"
 
@@ -15,10 +16,6 @@ namespace {
 using test::Random;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-Vec2 across(const Vec2& n) {
-    return {-n.y(), n.x()};
-}
 
 ResponseQuery any_pair(Random& random, double mass_decades, double e) {
     ResponseQuery q{random.vector(1),

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <complex>
 #include <functional>
-#include <limits>
 
 #include <unsupported/Eigen/Polynomials>
 
@@ -18,7 +17,6 @@ namespace {
 
 constexpr std::size_t kQueries = 16384;  // too many for a branch predictor to learn
 constexpr int kRounds = 15;
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double carom_time(const DiscQuery& q) {
     return disc_time_of_impact<double>(q.r, q.v, q.a, q.s);

@@ -21,11 +21,11 @@ using test::BigVector;
 
 /// Where the centre may go: a convex polygon's lines, moved inwards by the radius. `normal` points inwards
 /// and has length 1.
-struct Line {
+struct InsetLine {
     BigVector normal;
     Big offset;
 
-    Line(const Wall& wall, double radius) {
+    InsetLine(const Wall& wall, double radius) {
         const BigVector along = test::big(wall.to) - test::big(wall.from);
         const Big length = sqrt(Big(along.x() * along.x() + along.y() * along.y()));
         normal = {Big(-along.y() / length), Big(along.x() / length)};
@@ -55,19 +55,19 @@ std::vector<Wall> regular(int corners, double radius) {
     return closed(places);
 }
 
-std::vector<Line> lines_of(const std::vector<Wall>& walls, double radius) {
-    std::vector<Line> lines;
+std::vector<InsetLine> lines_of(const std::vector<Wall>& walls, double radius) {
+    std::vector<InsetLine> lines;
     lines.reserve(walls.size());
     for (const Wall& w : walls) lines.emplace_back(w, radius);
     return lines;
 }
 
 /// The path folded at one line after another.
-std::uint64_t run_exactly(const std::vector<Line>& lines, BigVector& x, BigVector v, Big time) {
+std::uint64_t run_exactly(const std::vector<InsetLine>& lines, BigVector& x, BigVector v, Big time) {
     for (std::uint64_t hits = 0;; ++hits) {
-        const Line* next = nullptr;
+        const InsetLine* next = nullptr;
         Big soonest = time;
-        for (const Line& line : lines) {
+        for (const InsetLine& line : lines) {
             const Big rate = line.rate(v);
             if (!(rate < 0)) continue;
             const Big t = line.height(x) / -rate;
@@ -118,7 +118,7 @@ Deviation in_polygon(int corners, double end) {
     Scene s;
     s.walls = regular(corners, 8);
     s.balls = {ball_at(1.25, 0.5, 0.8125, 1.375)};
-    const std::vector<Line> lines = lines_of(s.walls, 0.5);
+    const std::vector<InsetLine> lines = lines_of(s.walls, 0.5);
     return compare(s, 8, end, 8, 0, [&](BigVector& x, const BigVector& v, const Big& time) {
         return run_exactly(lines, x, v, time);
     });
@@ -132,12 +132,12 @@ Deviation in_triangle(double end) {
     Scene s;
     s.walls = closed({{-8, 0}, {8, 0}, {0, high}});
     s.balls = {ball_at(0.25, 4.5, 0.8125, 1.375)};
-    std::vector<Line> lines;
+    std::vector<InsetLine> lines;
     const Big root = sqrt(Big(3));
     for (const auto& [nx, ny, c] :
          {std::array<Big, 3>{0, 1, 0}, std::array<Big, 3>{-root / 2, Big(-0.5), -4 * root},
           std::array<Big, 3>{root / 2, Big(-0.5), -4 * root}}) {
-        Line line(s.walls[0], 0.5);
+        InsetLine line(s.walls[0], 0.5);
         line.normal = {nx, ny};
         line.offset = c + Big(0.5);
         lines.push_back(line);
@@ -149,13 +149,13 @@ Deviation in_triangle(double end) {
         const BigVector start = x;
         x += BigVector(v * time);
         std::uint64_t crossed = 0;
-        for (const Line& line : lines) {
+        for (const InsetLine& line : lines) {
             const Big from = floor(Big(line.height(start) / height));
             crossed += static_cast<std::uint64_t>(abs(Big(floor(Big(line.height(x) / height)) - from)));
         }
         for (bool outside = true; outside;) {
             outside = false;
-            for (const Line& line : lines) {
+            for (const InsetLine& line : lines) {
                 const Big depth = line.height(x);
                 if (!(depth < 0)) continue;
                 x -= BigVector(line.normal * Big(2 * depth));

@@ -16,7 +16,7 @@
 namespace carom::accuracy {
 namespace {
 
-constexpr int kBalls = 1000;
+constexpr int kLineBalls = 1000;
 
 /// Two points pass each other; or, where i == j, one turns at a wall.
 struct Crossing {
@@ -26,17 +26,17 @@ struct Crossing {
 };
 
 /// The points without size, in order at time 0, and what the surroundings make of them.
-struct Line {
+struct LineOfPoints {
     std::vector<double> place, speed;
     double gravity = 0;  ///< along the line, downwards
     double length = 0;   ///< of the room between walls or of the period, the diameters taken out
 };
 
-Line random_line(std::uint64_t seed, double pitch) {
+LineOfPoints random_line(std::uint64_t seed, double pitch) {
     test::Random random(seed);
-    Line line;
+    LineOfPoints line;
     double place = 0;
-    for (int k = 0; k < kBalls; ++k) {
+    for (int k = 0; k < kLineBalls; ++k) {
         line.place.push_back(place += dyadic(random.uniform(0.01, 2 * pitch)));
         line.speed.push_back(dyadic(random.uniform(-1, 1)));
     }
@@ -45,7 +45,7 @@ Line random_line(std::uint64_t seed, double pitch) {
 }
 
 /// Upright, for gravity; the lowest ball touches y = 0 when its point is there.
-Scene scene_of(const Line& line) {
+Scene scene_of(const LineOfPoints& line) {
     Scene s;
     s.gravity = {0, -line.gravity};
     for (std::size_t k = 0; k < line.place.size(); ++k)
@@ -54,9 +54,9 @@ Scene scene_of(const Line& line) {
 }
 
 /// `above`: room over the line's length.
-Scene bounded(const Line& line, Boundary boundary, double above = 0) {
+Scene bounded(const LineOfPoints& line, Boundary boundary, double above = 0) {
     Scene s = scene_of(line);
-    s.domain = Domain{{{-10, 0}, {10, line.length + kBalls + above}}, {Boundary::kOpen, boundary}, 1};
+    s.domain = Domain{{{-10, 0}, {10, line.length + kLineBalls + above}}, {Boundary::kOpen, boundary}, 1};
     return s;
 }
 
@@ -83,12 +83,12 @@ using Meetings = std::map<int, std::vector<Crossing>>;
 /// Carries the points along from crossing to crossing. `around`: the last ball meets the first.
 Meetings meetings_of(std::vector<Crossing> crossings, bool around) {
     std::ranges::sort(crossings, {}, &Crossing::time);
-    std::vector<int> ball(kBalls);
+    std::vector<int> ball(kLineBalls);
     std::iota(ball.begin(), ball.end(), 0);
     Meetings meetings;
     for (const Crossing& c : crossings) {
         int lower = std::min(ball[c.i], ball[c.j]);
-        if (around && std::abs(ball[c.i] - ball[c.j]) == kBalls - 1) lower = kBalls - 1;
+        if (around && std::abs(ball[c.i] - ball[c.j]) == kLineBalls - 1) lower = kLineBalls - 1;
         if (c.i == c.j && lower == 0) lower = -1;
         meetings[lower].push_back(c);
         std::swap(ball[c.i], ball[c.j]);
@@ -105,11 +105,11 @@ void compare_meetings(Deviation& d, const Meetings& expected, const std::vector<
         const bool is_wall = c.kind == CollisionKind::kWall;
         int lower = int(c.i);
         if (is_wall && c.i == 0) lower = -1;
-        if (!is_wall && c.i == 0 && c.j == kBalls - 1) lower = kBalls - 1;
+        if (!is_wall && c.i == 0 && c.j == kLineBalls - 1) lower = kLineBalls - 1;
         const std::size_t k = next[lower]++;
         const auto found = expected.find(lower);
         if (c.time < last || found == expected.end() || k >= found->second.size() ||
-            (!is_wall && lower < kBalls - 1 && c.j != c.i + 1)) {
+            (!is_wall && lower < kLineBalls - 1 && c.j != c.i + 1)) {
             d.include(std::numeric_limits<double>::infinity(), 1);
             return;
         }
@@ -134,7 +134,7 @@ Deviation compare(const Scene& scene, double end, const std::vector<Crossing>& c
     compare_meetings(d, meetings_of(crossings, around), seen, bounds, end);
     const PlaneVectors x = world.positions();
     const double worst = *std::ranges::max_element(bounds);
-    for (int k = 0; k < kBalls; ++k) {
+    for (int k = 0; k < kLineBalls; ++k) {
         long double error = x[k].y() - k - 0.5L - places[k];
         if (period > 0) error = std::remainder(error, static_cast<long double>(period));
         d.include(static_cast<double>(std::abs(error)), worst);
@@ -145,7 +145,7 @@ Deviation compare(const Scene& scene, double end, const std::vector<Crossing>& c
 
 /// A bound for each point from the events that it takes part in.
 std::vector<double> bounds_of(const std::vector<Crossing>& crossings, const EventError& each, double end) {
-    std::vector<double> bounds(kBalls, each.place);
+    std::vector<double> bounds(kLineBalls, each.place);
     for (const Crossing& c : crossings)
         for (const int k : {c.i, c.j}) bounds[k] += each.place + each.speed * end;
     return bounds;
@@ -153,23 +153,23 @@ std::vector<double> bounds_of(const std::vector<Crossing>& crossings, const Even
 
 /// Each pair of points passes once or never, and gravity takes no part in when.
 Deviation open_line(double gravity, double end) {
-    Line line = random_line(61, 0.75);
+    LineOfPoints line = random_line(61, 0.75);
     line.gravity = gravity;
     std::vector<Crossing> crossings;
-    for (int i = 0; i < kBalls; ++i)
-        for (int j = i + 1; j < kBalls; ++j) {
+    for (int i = 0; i < kLineBalls; ++i)
+        for (int j = i + 1; j < kLineBalls; ++j) {
             const long double rate = line.speed[i] - line.speed[j];
             const long double gap = line.place[j] - line.place[i];
             if (rate * end > gap) crossings.push_back({gap / rate, i, j, double(rate)});
         }
     std::vector<long double> places;
-    places.reserve(kBalls);
-    for (int k = 0; k < kBalls; ++k)
+    places.reserve(kLineBalls);
+    for (int k = 0; k < kLineBalls; ++k)
         places.push_back(line.place[k] + static_cast<long double>(line.speed[k]) * end -
                          static_cast<long double>(gravity) * end * end / 2);
     std::ranges::sort(places);
     const double fallen = gravity * end * end / 2;
-    const EventError each = event_error(line.length + kBalls + end + fallen, 1 + gravity * end, gravity);
+    const EventError each = event_error(line.length + kLineBalls + end + fallen, 1 + gravity * end, gravity);
     return compare(scene_of(line), end, crossings, false, places, bounds_of(crossings, each, end), 0);
 }
 
@@ -186,13 +186,13 @@ void add_multiples(std::vector<Crossing>& crossings, int i, int j, double place,
 /// Between two walls: unfolded, a point goes straight on a circle of twice the length, and is seen where the
 /// circle is pressed flat. Two meet where their angles or one's and the other's mirror image agree.
 Deviation walled_line(double end) {
-    const Line line = random_line(62, 0.05);
+    const LineOfPoints line = random_line(62, 0.05);
     std::vector<Crossing> crossings;
     std::vector<long double> places;
-    places.reserve(kBalls);
-    for (int i = 0; i < kBalls; ++i) {
+    places.reserve(kLineBalls);
+    for (int i = 0; i < kLineBalls; ++i) {
         add_multiples(crossings, i, i, line.place[i], line.speed[i], line.length, end);
-        for (int j = i + 1; j < kBalls; ++j) {
+        for (int j = i + 1; j < kLineBalls; ++j) {
             const double circle = 2 * line.length;
             add_multiples(crossings, i, j, line.place[i] - line.place[j], line.speed[i] - line.speed[j],
                           circle, end);
@@ -202,7 +202,7 @@ Deviation walled_line(double end) {
         places.push_back(std::abs(std::remainder(line.place[i] + line.speed[i] * end, 2 * line.length)));
     }
     std::ranges::sort(places);
-    const EventError each = event_error(line.length + kBalls, 1, 0);
+    const EventError each = event_error(line.length + kLineBalls, 1, 0);
     return compare(bounded(line, Boundary::kWall), end, crossings, false, places,
                    bounds_of(crossings, each, end), 0);
 }
@@ -210,12 +210,12 @@ Deviation walled_line(double end) {
 /// Round a circle. Which of the sorted points is ball 0's tells the sum of all ways, which no exchange
 /// changes.
 Deviation periodic_line(double end) {
-    const Line line = random_line(63, 0.05);
+    const LineOfPoints line = random_line(63, 0.05);
     std::vector<Crossing> crossings;
     std::vector<double> sorted;
     double ways = 0;
-    for (int i = 0; i < kBalls; ++i) {
-        for (int j = i + 1; j < kBalls; ++j)
+    for (int i = 0; i < kLineBalls; ++i) {
+        for (int j = i + 1; j < kLineBalls; ++j)
             add_multiples(crossings, i, j, line.place[i] - line.place[j], line.speed[i] - line.speed[j],
                           line.length, end);
         const double place = line.place[i] + line.speed[i] * end;
@@ -226,13 +226,13 @@ Deviation periodic_line(double end) {
     std::ranges::sort(sorted);
     const auto turns = static_cast<long>(std::lround(ways / line.length));
     std::vector<long double> places;
-    places.reserve(kBalls);
-    for (int k = 0; k < kBalls; ++k) {
-        const long of = ((k + turns) % kBalls + kBalls) % kBalls;
-        const long laps = (k + turns - of) / kBalls;
+    places.reserve(kLineBalls);
+    for (int k = 0; k < kLineBalls; ++k) {
+        const long of = ((k + turns) % kLineBalls + kLineBalls) % kLineBalls;
+        const long laps = (k + turns - of) / kLineBalls;
         places.push_back(sorted[static_cast<std::size_t>(of)] + static_cast<long double>(laps) * line.length);
     }
-    const double period = line.length + kBalls;
+    const double period = line.length + kLineBalls;
     const EventError each = event_error(2 * period, 1, 0);
     return compare(bounded(line, Boundary::kPeriodic), end, crossings, true, places,
                    bounds_of(crossings, each, end), period);
@@ -257,32 +257,32 @@ void add_bouncing(std::vector<Crossing>& crossings, const std::vector<BouncingPo
 
 /// A column on an elastic floor.
 Deviation column(double end) {
-    Line line = random_line(64, 0.05);
+    LineOfPoints line = random_line(64, 0.05);
     line.gravity = 0.5;
     std::vector<BouncingPoint> points;
-    points.reserve(kBalls);
-    for (int k = 0; k < kBalls; ++k) points.emplace_back(line.place[k], line.speed[k], line.gravity);
+    points.reserve(kLineBalls);
+    for (int k = 0; k < kLineBalls; ++k) points.emplace_back(line.place[k], line.speed[k], line.gravity);
     std::vector<Crossing> crossings;
     std::vector<long double> places;
-    places.reserve(kBalls);
+    places.reserve(kLineBalls);
     double fastest = 0;
-    for (int i = 0; i < kBalls; ++i) {
+    for (int i = 0; i < kLineBalls; ++i) {
         fastest = std::max(fastest, points[i].impact_speed());
         places.push_back(points[i].height(end));
         for (std::uint64_t n = 1; points[i].bounce_time(n) < end; ++n)
             crossings.push_back({points[i].bounce_time(n), i, i, points[i].impact_speed()});
-        for (int j = i + 1; j < kBalls; ++j) add_bouncing(crossings, points, i, j, end);
+        for (int j = i + 1; j < kLineBalls; ++j) add_bouncing(crossings, points, i, j, end);
     }
     std::ranges::sort(places);
-    std::vector<std::uint64_t> events(kBalls);
+    std::vector<std::uint64_t> events(kLineBalls);
     for (const Crossing& c : crossings)
         for (const int k : {c.i, c.j}) ++events[k];
-    const EventError each = event_error(2 * line.length + kBalls, fastest, line.gravity);
+    const EventError each = event_error(2 * line.length + kLineBalls, fastest, line.gravity);
     std::vector<double> bounds;
-    bounds.reserve(kBalls);
-    for (int k = 0; k < kBalls; ++k)
+    bounds.reserve(kLineBalls);
+    for (int k = 0; k < kLineBalls; ++k)
         bounds.push_back(points[k].bound(events[k] + 1, end, each.place, each.speed));
-    const double high = 3 * (line.length + kBalls);  // above all bounces
+    const double high = 3 * (line.length + kLineBalls);  // above all bounces
     return compare(bounded(line, Boundary::kWall, high), end, crossings, false, places, bounds, 0);
 }
 

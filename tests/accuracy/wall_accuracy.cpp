@@ -5,19 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "accuracy/across.hpp"
 #include "core/many_digits.hpp"
 
 namespace carom::accuracy {
 namespace {
 
 using test::Random;
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr Wide kOtherRoot = 1000;
-
-Vec2 across(const Vec2& n) {
-    return {-n.y(), n.x()};
-}
 
 WallQuery any_wall(Random& random, double pull_low, double pull_high) {
     const Vec2 p = random.vector(4);
@@ -35,7 +29,7 @@ WallQuery along_axis(Random& random) {
 }
 
 /// Past an end, or the face, at a distance of a radius and a little.
-WallQuery graze(Random& random, bool accelerated) {
+WallQuery graze_of_wall(Random& random, bool accelerated) {
     const Vec2 from = random.vector(2);
     const Vec2 to = from + random.direction(random.uniform(0.5, 4));
     const Vec2 along = (to - from).normalized();
@@ -81,7 +75,7 @@ WallQuery long_wall(Random& random) {
     return q;
 }
 
-WallQuery any_unit(Random& random) {
+WallQuery wall_of_any_unit(Random& random) {
     const double length = random.decades(-15, 15);
     const double time = random.decades(-12, 12);
     WallQuery q = any_wall(random, -2, 0.5);
@@ -162,11 +156,11 @@ std::vector<WallKind> wall_kinds() {
             {"acceleration 1e-30 to 1e3", any(-30, 3)},
             {"along an axis", along_axis},
             {"at an end", at_end},
-            {"graze of an end, straight", [](Random& random) { return graze(random, false); }},
-            {"graze of an end, accelerated", [](Random& random) { return graze(random, true); }},
+            {"graze of an end, straight", [](Random& random) { return graze_of_wall(random, false); }},
+            {"graze of an end, accelerated", [](Random& random) { return graze_of_wall(random, true); }},
             {"thrown up, gap from 1e-12", thrown_up},
             {"walls 10 to 1e6 long", long_wall},
-            {"lengths 1e-15 to 1e15", any_unit}};
+            {"lengths 1e-15 to 1e15", wall_of_any_unit}};
 }
 
 Tally measure(const WallKind& kind, std::uint64_t seed, const Effort& effort) {

@@ -5,16 +5,15 @@
 
 #include <cmath>
 
+#include "core/disc.hpp"
 #include "core/random.hpp"
 
 namespace carom {
 namespace {
 
-constexpr double kTolerance = 1e-6;
+using test::disc;
 
-Disc<double> disc(const Vec2& p, const Vec2& v, double radius, const Vec2& a = {0, 0}) {
-    return {{p, v, a}, radius, 1, 1};
-}
+constexpr double kTolerance = 1e-6;
 
 TEST(Bisection, FindsWhatTheStepEndsIn) {
     const auto impact =
@@ -85,7 +84,7 @@ TEST(Bisection, ComesWithinTheToleranceOfTheExactTime) {
     test::Random random(61);
     int hits = 0;
     for (int i = 0; i < 2000; ++i) {
-        const auto a = disc(random.direction(3), {0, 0}, 0.5, random.vector(1));
+        const auto a = disc(random.direction(3), {0, 0}, 0.5, 1, 1, random.vector(1));
         auto moving = a;
         moving.motion.velocity = -a.motion.position + random.vector(0.3);
         const auto b = disc({0, 0}, {0, 0}, 0.5);
@@ -155,11 +154,11 @@ TEST(Bisection, MissesTunnelling) {
 
 // The case with four roots, dt = 6, and the parabolas of the chord test: they come back within the step.
 TEST(Bisection, MissesParabolasThatComeBack) {
-    const auto arch = disc({-3, -16}, {1, 12}, 0.5, {0, -4});
+    const auto arch = disc({-3, -16}, {1, 12}, 0.5, 1, 1, {0, -4});
     const auto target = disc({0, 0}, {0, 0}, 0.5);
     EXPECT_EQ(ball_static_impact<double>(arch, target, 6.0)->time, 2);
     EXPECT_FALSE(bisect_ball_static<double>(arch, target, 6.0, kTolerance));
-    const auto ceiling = disc({0, -1}, {0, 3}, 0.25, {0, -2});
+    const auto ceiling = disc({0, -1}, {0, 3}, 0.25, 1, 1, {0, -2});
     EXPECT_TRUE(ball_wall_impact<double>(ceiling, {-10, 1}, {10, 1}, 1.0, 3.0));
     EXPECT_FALSE(bisect_ball_wall<double>(ceiling, {-10, 1}, {10, 1}, 1.0, 3.0, kTolerance));
 }

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
+#include "core/limits.hpp"
 #include "core/many_digits.hpp"
 #include "core/random.hpp"
 
@@ -12,9 +11,8 @@ namespace carom {
 namespace {
 
 using test::Big;
+using test::kEpsilon;
 using test::Random;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 TEST(Compensated, SumsAndProductsLoseNothing) {
     SCOPED_TRACE("seed 1");

@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "core/limits.hpp"
 #include "core/random.hpp"
 #include "core/sturm.hpp"
 
@@ -16,9 +17,8 @@ namespace carom {
 namespace {
 
 using test::Big;
+using test::kEpsilon;
 using test::Random;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 struct Motion2 {
     Vec2 r, v, a;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/limits.hpp"
 #include "core/many_digits.hpp"
 #include "core/random.hpp"
 #include "core/table.hpp"
@@ -18,9 +19,8 @@ namespace carom {
 namespace {
 
 using test::Big;
+using test::kInfinity;
 using test::Random;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double straight(const Vec2& r, const Vec2& v, double s) {
     return disc_time_of_impact<double>(r, v, s);

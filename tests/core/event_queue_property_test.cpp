@@ -9,12 +9,11 @@
 
 #include <carom/core/event_queue.hpp>
 
+#include "core/limits.hpp"
 #include "core/random.hpp"
 
 namespace carom::test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A queue and the set that says what it has to answer.
 class Checked {

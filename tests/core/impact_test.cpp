@@ -4,20 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "core/disc.hpp"
+#include "core/limits.hpp"
 #include "core/many_digits.hpp"
 #include "core/random.hpp"
 
 namespace carom {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-Disc<double> disc(const Vec2& p, const Vec2& v, double radius, double mass = 1, double e = 1,
-                  const Vec2& a = {0, 0}) {
-    return {{p, v, a}, radius, mass, e};
-}
+using test::disc;
+using test::kEpsilon;
 
 TEST(BallBallImpact, TellsWhenWhereAndHow) {
     const auto impact =

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
+#include "core/limits.hpp"
 #include "core/many_digits.hpp"
 #include "core/random.hpp"
 
@@ -17,9 +17,8 @@ namespace {
 
 using test::Big;
 using test::BigVector;
+using test::kEpsilon;
 using test::Random;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 struct Pair {
     Vec2 va, vb, offset;

@@ -5,15 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 
+#include "core/limits.hpp"
 #include "core/table.hpp"
 
 namespace carom {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+using test::kEpsilon;
 
 /// "7/16" or "-2".
 double fraction(const std::string& text) {

@@ -11,11 +11,14 @@
 
 #include <gtest/gtest.h>
 
+#include "core/limits.hpp"
+
 namespace carom {
 namespace {
 
+using test::kInfinity;
+
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A scene with one of everything, nothing wrong with it: a domain walled along x and periodic along y.
 Scene sound_scene() {

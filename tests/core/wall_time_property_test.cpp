@@ -8,11 +8,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 
 #include <carom/core/response.hpp>
 
+#include "core/limits.hpp"
 #include "core/random.hpp"
 #include "core/sturm.hpp"
 
@@ -21,9 +21,9 @@ namespace {
 
 using test::Big;
 using test::BigVector;
+using test::kInfinity;
 using test::Random;
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Hits are checked up to here; the families keep places below 1e3 until then.
 constexpr double kHorizon = 20;
 /// Rounding of places below 1e3 and of distances from them.
@@ -118,7 +118,7 @@ int check_family(std::uint64_t seed, int count, const std::function<WallMotion(R
             continue;
         const WallHit<double> hit = wall_time_of_impact<double>(m.centre, m.radius, m.from, m.to);
         const std::string fault = fault_from_outside(m, hit);
-        hits += hit.time < kNever ? 1 : 0;
+        hits += hit.time < kInfinity ? 1 : 0;
         faults += fault.empty() ? 0 : 1;
         EXPECT_EQ(fault, "") << "case " << i << ", t = " << hit.time << ", part "
                              << static_cast<int>(hit.feature) << std::hexfloat << "\np "
@@ -230,7 +230,7 @@ TEST(WallTimeProperty, StaysInABox) {
         for (int run = 0; run < 60; ++run) {
             Motion<double> m{{random.uniform(-1, 1), 1}, random.vector(5), {0, -1}};
             for (int event = 0; event < 300; ++event) {
-                WallHit<double> first{kNever, WallFeature::kFace};
+                WallHit<double> first{kInfinity, WallFeature::kFace};
                 std::size_t wall = 0;
                 for (std::size_t k = 0; k < corners.size(); ++k) {
                     const WallHit<double> hit =

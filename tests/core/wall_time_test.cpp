@@ -6,20 +6,20 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <map>
 #include <string>
 
 #include <carom/core/disc_time.hpp>
 #include <carom/core/response.hpp>
 
+#include "core/limits.hpp"
 #include "core/table.hpp"
 
 namespace carom {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+using test::kEpsilon;
+using test::kInfinity;
 
 double side(double gap, double speed, double acceleration) {
     return side_time_of_impact<double>(gap, speed, acceleration);

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path folder = fs::path(CAROM_SOURCE_DIR) / "tests/io/broken_scenes";
+const fs::path broken_scenes_folder = fs::path(CAROM_SOURCE_DIR) / "tests/io/broken_scenes";
 
 // "{folder}" stands for the folder's path.
 const std::map<std::string, std::string> messages = {
@@ -99,9 +99,9 @@ TEST(BrokenScenes, AreEachRefusedWithTheirLine) {
         SCOPED_TRACE(name);
         std::string expected = pattern;
         if (const auto mark = expected.find("{folder}"); mark != std::string::npos)
-            expected.replace(mark, 8, folder.string());
+            expected.replace(mark, 8, broken_scenes_folder.string());
         try {
-            (void)read_scene(folder / (name + ".json"));
+            (void)read_scene(broken_scenes_folder / (name + ".json"));
             ADD_FAILURE() << "accepted";
         } catch (const SceneError& error) {
             EXPECT_EQ(error.what(), expected);
@@ -113,7 +113,7 @@ TEST(BrokenScenes, AreEachRefusedWithTheirLine) {
 }
 
 TEST(BrokenScenes, AllHaveALine) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(broken_scenes_folder)) {
         if (entry.path().extension() != ".json") continue;
         EXPECT_TRUE(messages.contains(entry.path().stem().string())) << entry.path();
     }
@@ -128,9 +128,10 @@ TEST(BrokenScenes, MissingFileAndFolderAreNamedWithTheReason) {
         }
         return "accepted";
     };
-    const fs::path missing = folder / "missing.json";
+    const fs::path missing = broken_scenes_folder / "missing.json";
     EXPECT_EQ(message(missing), missing.string() + ": cannot be read: No such file or directory");
-    EXPECT_EQ(message(folder), folder.string() + ": cannot be read: Is a directory");
+    EXPECT_EQ(message(broken_scenes_folder),
+              broken_scenes_folder.string() + ": cannot be read: Is a directory");
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ std::vector<fs::path> scene_files() {
     return files;
 }
 
-std::string message_of(const std::string& text, const fs::path& folder = {}) {
+std::string scene_message_of(const std::string& text, const fs::path& folder = {}) {
     try {
         (void)parse_scene(text, folder);
     } catch (const SceneError& error) {
@@ -148,13 +148,14 @@ TEST(SceneFile, TakesItsNameFromTheFile) {
 }
 
 TEST(SceneFile, TakesAByteOrderMarkAndWindowsLines) {
-    EXPECT_EQ(message_of("\xEF\xBB\xBF{\"balls\": [{\"position\": [0, 0]}],\r\n\"until\": 1}\r\n"),
+    EXPECT_EQ(scene_message_of("\xEF\xBB\xBF{\"balls\": [{\"position\": [0, 0]}],\r\n\"until\": 1}\r\n"),
               "accepted");
 }
 
 TEST(SceneFile, SuggestsTheNearestKeyAtEveryLevel) {
     const auto suggestion = [](std::string_view member) {
-        return message_of(fmt::format(R"({{{}, "balls": [{{"position": [0, 0]}}], "until": 1}})", member));
+        return scene_message_of(
+            fmt::format(R"({{{}, "balls": [{{"position": [0, 0]}}], "until": 1}})", member));
     };
     EXPECT_EQ(suggestion(R"("gravty": [0, 0])"), "gravty: unknown key, did you mean \"gravity\"?");
     EXPECT_EQ(suggestion(R"("ball": [])"), "ball: unknown key, did you mean \"balls\"?");
@@ -183,15 +184,15 @@ TEST(SceneFile, BallsOfAFileFollowThoseOfTheScene) {
 TEST(SceneFile, NamesTheLineOfABadBallInABallsFile) {
     const TemporaryFolder folder;
     put_file(folder / "bad.xyz", "3\nProperties=id:I:1:pos:R:2:radius:R:1\n3 1 2 1\n2 4 4 -1\n1 8 8 1\n");
-    EXPECT_EQ(message_of(R"({"balls_file": "bad.xyz", "balls": [{"position": [90, 0]}], "until": 1})",
-                         folder.path()),
+    EXPECT_EQ(scene_message_of(R"({"balls_file": "bad.xyz", "balls": [{"position": [90, 0]}], "until": 1})",
+                               folder.path()),
               "bad.xyz:4: radius: must be > 0, is -1");
-    EXPECT_EQ(
-        message_of(R"({"balls_file": "bad.xyz", "balls": [{"position": [90, 0], "mass": 0}], "until": 1})",
-                   folder.path()),
-        "balls[0].mass: must be > 0, is 0");
+    EXPECT_EQ(scene_message_of(
+                  R"({"balls_file": "bad.xyz", "balls": [{"position": [90, 0], "mass": 0}], "until": 1})",
+                  folder.path()),
+              "balls[0].mass: must be > 0, is 0");
     put_file(folder / "torn.xyz", "3\n\nA 1 2 3\n");
-    EXPECT_EQ(message_of(R"({"balls_file": "torn.xyz", "until": 1})", folder.path()),
+    EXPECT_EQ(scene_message_of(R"({"balls_file": "torn.xyz", "until": 1})", folder.path()),
               "torn.xyz:3: the file ends after 1 of the frame's 3 balls");
 }
 

@@ -22,7 +22,7 @@ using testing_values::any_finite;
 using testing_values::Generator;
 using testing_values::same_bits;
 
-std::string message_of(const std::string& text) {
+std::string xyz_message_of(const std::string& text) {
     try {
         (void)parse_xyz(text, "some.xyz");
     } catch (const SceneError& error) {
@@ -182,40 +182,40 @@ TEST(Xyz, IdsGiveTheOrderAndMayLeaveGaps) {
 }
 
 TEST(Xyz, RefusesBadFilesAtTheirLine) {
-    EXPECT_EQ(message_of(""), "some.xyz: is empty");
-    EXPECT_EQ(message_of(" \n\n"), "some.xyz: is empty");
-    EXPECT_EQ(message_of("many\n\n"), "some.xyz:1: must be the number of balls, is \"many\"");
-    EXPECT_EQ(message_of("-1\n\n"), "some.xyz:1: must be the number of balls, is \"-1\"");
-    EXPECT_EQ(message_of("1 2\n\n"), "some.xyz:1: must be the number of balls, is \"1 2\"");
-    EXPECT_EQ(message_of("99999999999999999999\n\n"),
+    EXPECT_EQ(xyz_message_of(""), "some.xyz: is empty");
+    EXPECT_EQ(xyz_message_of(" \n\n"), "some.xyz: is empty");
+    EXPECT_EQ(xyz_message_of("many\n\n"), "some.xyz:1: must be the number of balls, is \"many\"");
+    EXPECT_EQ(xyz_message_of("-1\n\n"), "some.xyz:1: must be the number of balls, is \"-1\"");
+    EXPECT_EQ(xyz_message_of("1 2\n\n"), "some.xyz:1: must be the number of balls, is \"1 2\"");
+    EXPECT_EQ(xyz_message_of("99999999999999999999\n\n"),
               "some.xyz:1: must be the number of balls, is \"99999999999999999999\"");
-    EXPECT_EQ(message_of("1"), "some.xyz:1: the file ends before the frame's comment line");
-    EXPECT_EQ(message_of("1000000000000\n\nH 1 2 3\n"),
+    EXPECT_EQ(xyz_message_of("1"), "some.xyz:1: the file ends before the frame's comment line");
+    EXPECT_EQ(xyz_message_of("1000000000000\n\nH 1 2 3\n"),
               "some.xyz:3: the file ends after 1 of the frame's 1000000000000 balls");
-    EXPECT_EQ(message_of("1\n\nH 1 2\n"), "some.xyz:3: must have 4 columns, has 3");
-    EXPECT_EQ(message_of("1\n\nH 1 2 3 4\n"), "some.xyz:3: must have 4 columns, has 5");
-    EXPECT_EQ(message_of("1\n\nH 1 two 3\n"), "some.xyz:3: column 3 must be a number, is \"two\"");
-    EXPECT_EQ(message_of("1\n\nH 1 1e999 3\n"), "some.xyz:3: column 3 must be a number, is \"1e999\"");
-    EXPECT_EQ(message_of("1\nProperties=species:S:1\nH\n"), "some.xyz:2: Properties names no pos column");
-    EXPECT_EQ(message_of("1\nProperties=pos:R\n1 2\n"),
+    EXPECT_EQ(xyz_message_of("1\n\nH 1 2\n"), "some.xyz:3: must have 4 columns, has 3");
+    EXPECT_EQ(xyz_message_of("1\n\nH 1 2 3 4\n"), "some.xyz:3: must have 4 columns, has 5");
+    EXPECT_EQ(xyz_message_of("1\n\nH 1 two 3\n"), "some.xyz:3: column 3 must be a number, is \"two\"");
+    EXPECT_EQ(xyz_message_of("1\n\nH 1 1e999 3\n"), "some.xyz:3: column 3 must be a number, is \"1e999\"");
+    EXPECT_EQ(xyz_message_of("1\nProperties=species:S:1\nH\n"), "some.xyz:2: Properties names no pos column");
+    EXPECT_EQ(xyz_message_of("1\nProperties=pos:R\n1 2\n"),
               "some.xyz:2: Properties must be name:type:columns, again and again, as in species:S:1:pos:R:3");
-    EXPECT_EQ(message_of("1\nProperties=pos:R:0\n\n"),
+    EXPECT_EQ(xyz_message_of("1\nProperties=pos:R:0\n\n"),
               "some.xyz:2: Properties must be name:type:columns, again and again, as in species:S:1:pos:R:3");
-    EXPECT_EQ(message_of("1\nProperties=pos:R:4\n1 2 3 4\n"),
+    EXPECT_EQ(xyz_message_of("1\nProperties=pos:R:4\n1 2 3 4\n"),
               "some.xyz:2: pos must have 2 or 3 columns, has 4");
-    EXPECT_EQ(message_of("1\nProperties=pos:R:2:radius:R:2\n1 2 3 4\n"),
+    EXPECT_EQ(xyz_message_of("1\nProperties=pos:R:2:radius:R:2\n1 2 3 4\n"),
               "some.xyz:2: radius must have 1 column, has 2");
-    EXPECT_EQ(message_of("1\nProperties=pos:R:2:position:R:2\n1 2 3 4\n"),
+    EXPECT_EQ(xyz_message_of("1\nProperties=pos:R:2:position:R:2\n1 2 3 4\n"),
               "some.xyz:2: Properties names position twice");
-    EXPECT_EQ(message_of("1\nProperties=\"pos:R:2\n1 2\n"),
+    EXPECT_EQ(xyz_message_of("1\nProperties=\"pos:R:2\n1 2\n"),
               "some.xyz:2: the value of Properties has no closing quote");
-    EXPECT_EQ(message_of("2\nProperties=id:I:1:pos:R:2\n7 1 2\n7 3 4\n"),
+    EXPECT_EQ(xyz_message_of("2\nProperties=id:I:1:pos:R:2\n7 1 2\n7 3 4\n"),
               "some.xyz:4: has the id 7 of line 3");
-    EXPECT_EQ(message_of("1\nProperties=id:I:1:pos:R:2\n-7 1 2\n"),
+    EXPECT_EQ(xyz_message_of("1\nProperties=id:I:1:pos:R:2\n-7 1 2\n"),
               "some.xyz:3: column 1 must be a whole number, the ball's id, is \"-7\"");
-    EXPECT_EQ(message_of("1\nProperties=pos:R:2:static:L:1\n1 2 yes\n"),
+    EXPECT_EQ(xyz_message_of("1\nProperties=pos:R:2:static:L:1\n1 2 yes\n"),
               "some.xyz:3: column 3 must be T or F, is \"yes\"");
-    EXPECT_EQ(message_of("1\n\nH 1 2 3\nrubbish\n"),
+    EXPECT_EQ(xyz_message_of("1\n\nH 1 2 3\nrubbish\n"),
               "some.xyz:4: must be the number of balls, is \"rubbish\"");
 }
 
@@ -224,7 +224,7 @@ TEST(Xyz, TakesTheLastOfSeveralFrames) {
     const XyzFrame frame = parse_xyz(text, "some.xyz");
     ASSERT_EQ(frame.balls.size(), 2U);
     EXPECT_EQ(frame.balls[1].position, Vec2(7, 8));
-    EXPECT_EQ(message_of(text + "2\n\nH 1 2 3\n"),
+    EXPECT_EQ(xyz_message_of(text + "2\n\nH 1 2 3\n"),
               "some.xyz:10: the file ends after 1 of the frame's 2 balls");
 }
 
