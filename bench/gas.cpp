@@ -83,10 +83,12 @@ void measure(double count, double packing, double seconds, int threads, int doma
     const double worked_0 = world.working_seconds();
     const double energy = world.energy(), time_0 = world.time(), virial_0 = world.virial();
     Slices slices(world);
-    while (slices.elapsed() < seconds) {
-        world.step(stretch / kLooks);
-        slices.look();
-    }
+    do {
+        for (int k = 0; k < kLooks; ++k) {
+            world.step(stretch / kLooks);
+            slices.look();
+        }
+    } while (slices.elapsed() < seconds);
 
     const double elapsed = slices.elapsed();
     const Counts counts_1 = world.counts();
