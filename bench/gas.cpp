@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <utility>
 #include <vector>
 
 #include <carom/parallel/world.hpp>
@@ -35,16 +36,17 @@ class Slices {
     explicit Slices(const World& world) : world_(world) {}
 
     [[nodiscard]] double elapsed() const { return since(start_); }
-    /// To be called often. Where there are windows a slice ends with the first look into one, so that it has
-    /// the time and the collisions of whole ones.
+    /// To be called often. Where there are windows a slice is some of them and ends with the first look into
+    /// one, so that it has the time and, but for one window more or less, the collisions of whole ones.
     void look() {
         const Counts counts = world_.counts();
-        const bool is_in_step = counts.windows == 0 || counts.windows != windows_;
-        windows_ = counts.windows;
-        if (!is_in_step || since(begun_) < kSlice) return;
+        if (counts.windows != 0 && std::exchange(windows_, counts.windows) == counts.windows) return;
+        if (counts.windows != 0 && ++windows_of_slice_ < kFewestWindows) return;
+        if (since(begun_) < kSlice) return;
         const std::uint64_t collisions = counts.ball_collisions;
         if (is_begun_) speeds_.push_back(static_cast<double>(collisions - collisions_) / since(begun_));
         is_begun_ = true;
+        windows_of_slice_ = 0;
         collisions_ = collisions;
         begun_ = Clock::now();
     }
@@ -57,6 +59,7 @@ class Slices {
  private:
     using Clock = std::chrono::steady_clock;
     static constexpr double kSlice = 0.02;  // seconds
+    static constexpr int kFewestWindows = 8;
     static double since(const Clock::time_point& t) {
         return std::chrono::duration<double>(Clock::now() - t).count();
     }
@@ -64,6 +67,7 @@ class Slices {
     const World& world_;
     Clock::time_point start_ = Clock::now(), begun_ = start_;
     std::uint64_t windows_ = 0, collisions_ = 0;
+    int windows_of_slice_ = 0;
     bool is_begun_ = false;
     std::vector<double> speeds_;
 };

@@ -39,7 +39,7 @@ struct BallOutcome {
 struct CopyOutcome {
     Origin origin;
     std::uint64_t history = 0;
-    bool is_lost = false;   ///< given up before the window's end
+    bool is_lost = false;  ///< given up before the window's end
 };
 
 /// A ball of the domain's own whose next event is with a copy.

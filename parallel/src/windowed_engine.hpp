@@ -144,7 +144,10 @@ class WindowedEngine final : public Engine {
 class WindowedEngine::Index {
  public:
     Index(const WindowedEngine& engine, const DomainState& d, Roster& roster)
-        : grid_(engine.bodies_.grid), roster_(roster), inner_x_(inner(d.x, engine)), inner_y_(inner(d.y, engine)) {
+        : grid_(engine.bodies_.grid),
+          roster_(roster),
+          inner_x_(inner(d.x, engine)),
+          inner_y_(inner(d.y, engine)) {
         roster.cells.resize(roster.records.size());
         roster.near_border.resize(roster.records.size());
     }
