@@ -40,8 +40,8 @@ class Slices {
     /// one, so that it has the time and, but for one window more or less, the collisions of whole ones.
     void look() {
         const Counts counts = world_.counts();
-        if (counts.windows != 0 && std::exchange(windows_, counts.windows) == counts.windows) return;
-        if (counts.windows != 0 && ++windows_of_slice_ < kFewestWindows) return;
+        const bool is_new = std::exchange(windows_, counts.windows) != counts.windows;
+        if (counts.windows != 0 && (!is_new || ++windows_of_slice_ < kFewestWindows)) return;
         if (since(begun_) < kSlice) return;
         const std::uint64_t collisions = counts.ball_collisions;
         if (is_begun_) speeds_.push_back(static_cast<double>(collisions - collisions_) / since(begun_));

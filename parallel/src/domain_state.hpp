@@ -138,12 +138,15 @@ struct DomainState {
     /// Tables that a loop fills change hands, before the window so that it fills the same ones each time: few
     /// lie in the cache.
     void swap_tables(EventLoop& loop) {
+        swap_notes(loop);
         std::swap(overwritten, loop.overwritten);
-        std::swap(notes, loop.notes);
-        std::swap(collisions, loop.collisions);
         std::swap(touched, loop.touched);
         std::swap(meetings, loop.meetings);
         std::swap(visits, loop.visits);
+    }
+    void swap_notes(EventLoop& loop) {
+        std::swap(notes, loop.notes);
+        std::swap(collisions, loop.collisions);
     }
     /// The collisions that count here are those that a loop has noted.
     void count_notes(double typical_virial) {

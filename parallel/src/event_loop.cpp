@@ -11,6 +11,27 @@
 
 namespace carom {
 
+namespace {
+
+/// One a mark: the domain's own cells are touched, and those beside them.
+std::vector<std::uint8_t> marks_touched_at_start(const Region& region) {
+    std::vector<std::uint8_t> touched(static_cast<std::size_t>(region.mark_count()));
+    const auto own_marks = [](const RegionAxis& axis) {
+        std::vector<std::int32_t> marks;
+        for (std::int32_t m = 0; m < axis.mark_count(); ++m)
+            if (axis.depth(axis.marked(m)) <= 1) marks.push_back(m);
+        return marks;
+    };
+    const std::vector<std::int32_t> columns = own_marks(region.x);
+    const auto width = static_cast<std::size_t>(region.x.mark_count());
+    for (const std::int32_t y : own_marks(region.y))
+        for (const std::int32_t x : columns)
+            touched[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1;
+    return touched;
+}
+
+}  // namespace
+
 EventLoop::EventLoop(const Bodies& bodies) : bodies_(bodies), clock_(bodies.physics.clock) {
     const auto of_axes = [&grid = bodies.grid](auto&& of) { return twice(of(grid.x), of(grid.y)); };
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -43,20 +64,7 @@ void EventLoop::forget_window() {
     events = collisions_of_all = 0;
     empty(notes, collisions, overwritten, visits, meetings);
     if (!keeps_window) return;
-    if (touched_at_start_.empty()) {
-        touched_at_start_.assign(static_cast<std::size_t>(region_.mark_count()), 0);
-        const auto own_marks = [](const RegionAxis& axis) {
-            std::vector<std::int32_t> marks;
-            for (std::int32_t m = 0; m < axis.mark_count(); ++m)
-                if (axis.depth(axis.marked(m)) <= 1) marks.push_back(m);
-            return marks;
-        };
-        const std::vector<std::int32_t> columns = own_marks(region_.x);
-        const auto width = static_cast<std::size_t>(region_.x.mark_count());
-        for (const std::int32_t y : own_marks(region_.y))
-            for (const std::int32_t x : columns)
-                touched_at_start_[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1;
-    }
+    if (touched_at_start_.empty()) touched_at_start_ = marks_touched_at_start(region_);
     touched = touched_at_start_;
 }
 

@@ -120,8 +120,7 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
         d.end.places.push_back(static_cast<std::uint32_t>(d.end.places.size()));
     }
     for (DomainState& d : domains_) index(d, d.end);
-    std::swap(domains_.front().notes, loop.notes);
-    std::swap(domains_.front().collisions, loop.collisions);
+    domains_.front().swap_notes(loop);
     domains_.front().count_notes(bodies_.physics.typical_virial);
     domains_.front().events = loop.events;
     return loop.is_full() ? Stop{loop.time_now()} : window_end;

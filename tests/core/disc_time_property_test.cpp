@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 #include <string>
 
 #include "core/limits.hpp"
@@ -18,6 +17,7 @@ namespace {
 
 using test::Big;
 using test::kEpsilon;
+using test::kInfinity;
 using test::Random;
 
 struct Motion2 {
@@ -36,13 +36,11 @@ class Check {
     /// Empty when `t` is the impact by the rule, else what is wrong.
     [[nodiscard]] std::string fault(double t) const {
         if (!(t >= 0)) return "negative or NaN";
-        if (gap_[0] > 0) return t < kNever ? fault_of_hit(t, 0) : fault_of_miss();
+        if (gap_[0] > 0) return t < kInfinity ? fault_of_hit(t, 0) : fault_of_miss();
         return fault_from_overlap(t);
     }
 
  private:
-    static constexpr double kNever = std::numeric_limits<double>::infinity();
-
     /// Error of f in twice the digits at t: some tens of eps^2 of the largest term.
     [[nodiscard]] Big gap_error(const Big& t) const {
         const Big reach = Big(m_.r.norm()) + m_.v.norm() * t + m_.a.norm() * t * t + m_.s;
@@ -94,7 +92,7 @@ class Check {
             return "";  // the sign of b is rounding's
         const Big first = rate_[0] != 0 ? rate_[0] : rate_[1];
         if (first < 0) return found == 0 ? "" : "falls from an overlap, must be 0";
-        if (!(found < kNever)) return fault_of_endless_overlap();
+        if (!(found < kInfinity)) return fault_of_endless_overlap();
         const Big t(found);
         // At the turning point where f <= 0 still, else at the root after it.
         const Big curvature = test::value_at(test::derivative(rate_), t);
@@ -125,7 +123,7 @@ int check_family(std::uint64_t seed, int count, const std::function<Motion2(Rand
         const Motion2 m = make(random);
         const double t = disc_time_of_impact<double>(m.r, m.v, m.a, m.s);
         const std::string fault = Check(m).fault(t);
-        hits += t < std::numeric_limits<double>::infinity() ? 1 : 0;
+        hits += t < kInfinity ? 1 : 0;
         faults += fault.empty() ? 0 : 1;
         EXPECT_EQ(fault, "") << "case " << i << ", t = " << t << std::hexfloat << "\nr " << m.r.transpose()
                              << " v " << m.v.transpose() << " a " << m.a.transpose() << " s " << m.s;

@@ -2,26 +2,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <carom/core/sensor_time.hpp>
 
+#include "core/limits.hpp"
 #include "random.hpp"
 #include "sensor_distance.hpp"
 
 namespace carom::test {
 namespace {
 
-constexpr double kForEver = std::numeric_limits<double>::infinity();
-constexpr double kUlp = std::numeric_limits<double>::epsilon();
-
 // Seven units to the left, speed two: the surfaces meet at 3 and part at 9 of the way.
 TEST(SensorTime, StraightThroughADisc) {
-    const auto s = stretches_inside({{-6, 0}, {2, 0}, {0, 0}}, 1, {{{0, 0}}, 2}, kForEver);
+    const auto s = stretches_inside({{-6, 0}, {2, 0}, {0, 0}}, 1, {{{0, 0}}, 2}, kInfinity);
     ASSERT_EQ(s.size(), 1U);
-    EXPECT_NEAR(s[0].from, 1.5, 2 * kUlp);
-    EXPECT_NEAR(s[0].to, 4.5, 4 * kUlp);
+    EXPECT_NEAR(s[0].from, 1.5, 2 * kEpsilon);
+    EXPECT_NEAR(s[0].to, 4.5, 4 * kEpsilon);
 }
 
 TEST(SensorTime, BallsThatStandStillStayWhereTheyAre) {
@@ -29,7 +26,7 @@ TEST(SensorTime, BallsThatStandStillStayWhereTheyAre) {
     const auto in = stretches_inside({{1, 2.5}, {0, 0}, {0, 0}}, 1, disc, 100);
     ASSERT_EQ(in.size(), 1U);
     EXPECT_EQ(in[0].from, 0);
-    EXPECT_EQ(in[0].to, kForEver);
+    EXPECT_EQ(in[0].to, kInfinity);
     EXPECT_TRUE(stretches_inside({{1, 3.5}, {0, 0}, {0, 0}}, 1, disc, 100).empty());
 }
 
@@ -38,10 +35,10 @@ TEST(SensorTime, UpAndDownThroughAGate) {
     const Sensor gate{{{-5, 3}, {5, 3}}};
     const auto s = stretches_inside({{0, 0}, {0, 4}, {0, -2}}, 0.5, gate, 10);
     ASSERT_EQ(s.size(), 2U);
-    EXPECT_NEAR(s[0].from, 2 - std::sqrt(1.5), 8 * kUlp);
-    EXPECT_NEAR(s[0].to, 2 - std::sqrt(0.5), 8 * kUlp);
-    EXPECT_NEAR(s[1].from, 2 + std::sqrt(0.5), 16 * kUlp);
-    EXPECT_NEAR(s[1].to, 2 + std::sqrt(1.5), 16 * kUlp);
+    EXPECT_NEAR(s[0].from, 2 - std::sqrt(1.5), 8 * kEpsilon);
+    EXPECT_NEAR(s[0].to, 2 - std::sqrt(0.5), 8 * kEpsilon);
+    EXPECT_NEAR(s[1].from, 2 + std::sqrt(0.5), 16 * kEpsilon);
+    EXPECT_NEAR(s[1].to, 2 + std::sqrt(1.5), 16 * kEpsilon);
 }
 
 // Past the gate's end: the ball touches the end alone, half a radius aside.
@@ -49,8 +46,8 @@ TEST(SensorTime, PastAnEnd) {
     const Sensor gate{{{0, 0}, {0, 4}}};
     const auto s = stretches_inside({{-3, 4.5}, {1, 0}, {0, 0}}, 1, gate, 10);
     ASSERT_EQ(s.size(), 1U);
-    EXPECT_NEAR(s[0].from, 3 - std::sqrt(0.75), 8 * kUlp);
-    EXPECT_NEAR(s[0].to, 3 + std::sqrt(0.75), 8 * kUlp);
+    EXPECT_NEAR(s[0].from, 3 - std::sqrt(0.75), 8 * kEpsilon);
+    EXPECT_NEAR(s[0].to, 3 + std::sqrt(0.75), 8 * kEpsilon);
 }
 
 // Through a square from side to side, along a diagonal, and round its corner at a distance.
@@ -59,12 +56,12 @@ TEST(SensorTime, ThroughASquareInEitherOrderOfItsCorners) {
     for (int turn = 0; turn < 2; ++turn) {
         auto s = stretches_inside({{-3, 1}, {1, 0}, {0, 0}}, 0.75, square, 20);
         ASSERT_EQ(s.size(), 1U);
-        EXPECT_NEAR(s[0].from, 2, 8 * kUlp);
-        EXPECT_NEAR(s[0].to, 8, 16 * kUlp);
+        EXPECT_NEAR(s[0].from, 2, 8 * kEpsilon);
+        EXPECT_NEAR(s[0].to, 8, 16 * kEpsilon);
         s = stretches_inside({{-3, -3}, {1, 1}, {0, 0}}, 0.75, square, 20);
         ASSERT_EQ(s.size(), 1U);
-        EXPECT_NEAR(s[0].from, 3 - std::numbers::sqrt2 / 2, 16 * kUlp);
-        EXPECT_NEAR(s[0].to, 7 + std::numbers::sqrt2 / 2, 32 * kUlp);
+        EXPECT_NEAR(s[0].from, 3 - std::numbers::sqrt2 / 2, 16 * kEpsilon);
+        EXPECT_NEAR(s[0].to, 7 + std::numbers::sqrt2 / 2, 32 * kEpsilon);
         std::swap(square.corners[1], square.corners[3]);
     }
 }
