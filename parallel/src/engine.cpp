@@ -84,13 +84,14 @@ class SerialEngine final : public Engine {
         executor_.for_ranges(loop_->size(), 4096, [&](std::size_t first, std::size_t last) {
             FlightList flights(bodies_);
             for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
-                visit(loop_->id(i), flights.of(loop_->records()[i].anchor, loop_->extra(i).acceleration,
-                                               loop_->overwritten, loop_->last_overwritten(i), from, to));
+                visit(loop_->id(i),
+                      flights.of({loop_->records()[i].anchor, loop_->last_overwritten(i), nullptr},
+                                 loop_->extra(i).acceleration, loop_->overwritten, from, to));
         });
     }
     void follow(Follower follower) override {
         follower_ = std::move(follower);
-        loop_->keeps_anchors = static_cast<bool>(follower_);
+        loop_->keeps_anchors = follower_ ? Keeps::kAll : Keeps::kNone;
         loop_->on_part = nullptr;
         if (follower_) loop_->on_part = [this](const Time& t) { tell_follower({t, false}); };
         forget_anchors();
@@ -124,17 +125,17 @@ Engine::Engine(const Bodies& bodies, const EngineStart& start) : bodies_(bodies)
     tally_.virial.restore(start.virial);
 }
 
-std::span<const Flight> FlightList::of(const Anchor& last, const Vec2& acceleration,
-                                       std::span<const OverwrittenAnchor> overwritten, std::uint32_t previous,
-                                       const Stop& from, const Time& to) {
+std::span<const Flight> FlightList::of(const Way& way, const Vec2& acceleration,
+                                       std::span<const OverwrittenAnchor> overwritten, const Stop& from,
+                                       const Time& to) {
     flights_.clear();
-    add(last, acceleration, to);
-    for (std::uint32_t k = previous; k != kNowhere; k = overwritten[k].previous) {
+    add(way.last, acceleration, to);
+    for (std::uint32_t k = way.previous; k != kNowhere;) {
         const bool is_seen = !flights_.empty() && (from.is_whole ? flights_.back().anchor.time <= from.time
                                                                  : flights_.back().anchor.time < from.time);
         if (is_seen) break;
-        const OverwrittenAnchor& o = overwritten[k];
-        add(anchor_of(o), acceleration, to);
+        add(k == kAtStart ? *way.at_start : anchor_of(overwritten[k]), acceleration, to);
+        k = k == kAtStart ? kNowhere : overwritten[k].previous;
     }
     std::ranges::reverse(flights_);
     return flights_;

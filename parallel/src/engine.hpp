@@ -94,10 +94,16 @@ class Engine {
 class FlightList {
  public:
     explicit FlightList(const Bodies& bodies) : bodies_(bodies) {}
+    /// A ball's anchor, the one that it has overwritten last, and the one that kAtStart stands for.
+    struct Way {
+        const Anchor& last;
+        std::uint32_t previous;
+        const Anchor* at_start;
+    };
     /// Those that end after `from`, and the last one, cut off at `to`. Until the next call.
-    std::span<const Flight> of(const Anchor& last, const Vec2& acceleration,
-                               std::span<const OverwrittenAnchor> overwritten, std::uint32_t previous,
-                               const Stop& from, const Time& to);
+    std::span<const Flight> of(const Way& way, const Vec2& acceleration,
+                               std::span<const OverwrittenAnchor> overwritten, const Stop& from,
+                               const Time& to);
 
  private:
     void add(const Anchor& anchor, const Vec2& acceleration, const Time& to);

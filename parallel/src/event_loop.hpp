@@ -87,8 +87,8 @@ struct Hit {
 [[nodiscard]] Collision collision_of(const Bodies& bodies, double seconds, std::uint32_t id,
                                      std::uint32_t partner, const Vec2& centre, const Hit& hit);
 
-/// What an event has overwritten of ball `ball`'s anchor, and the index of what was before it. One cache
-/// line.
+/// What an event has overwritten of ball `ball`'s anchor, and the index of what was before it: kNowhere if
+/// nothing was, kAtStart if the ball's anchor at the window's start, which is kept elsewhere. One cache line.
 struct OverwrittenAnchor {
     double x, y, vx, vy;
     Time time;
@@ -97,6 +97,9 @@ struct OverwrittenAnchor {
     std::uint32_t ball = kNowhere;
 };
 static_assert(sizeof(OverwrittenAnchor) == 64);
+inline constexpr std::uint32_t kAtStart = kNowhere - 1;
+/// Which overwritten anchors are kept.
+enum class Keeps : std::uint8_t { kNone, kAllButFirst, kAll };  // but the first of each ball
 /// As far as the way from there on depends on it.
 [[nodiscard]] inline Anchor anchor_of(const OverwrittenAnchor& o) {
     return {o.x, o.y, o.vx, o.vy, o.time, 0, 0, {}};
@@ -181,7 +184,7 @@ class EventLoop {
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(records_.size()); }
     [[nodiscard]] std::uint32_t id(std::uint32_t i) const { return records_[i].id(); }
     [[nodiscard]] std::span<const BallRecord> records() const { return records_; }
-    /// The anchor of ball i that was overwritten last: index into `overwritten`.
+    /// The anchor of ball i that was overwritten last: index into `overwritten`, or kAtStart.
     [[nodiscard]] std::uint32_t last_overwritten(std::uint32_t i) const {
         return locals_[i].last_overwritten;
     }
@@ -215,8 +218,8 @@ class EventLoop {
     /// Whether a ball without room to move is an error only after very many events at one instant; else the
     /// loop fails after a few.
     bool is_patient = true;
-    bool keeps_window = false;   ///< whether visits and histories are kept
-    bool keeps_anchors = false;  ///< whether overwritten anchors are
+    bool keeps_window = false;  ///< whether visits and histories are kept
+    Keeps keeps_anchors = Keeps::kNone;
     /// What is kept of events must fit the memory: when the load is as high as that, the loop stops before
     /// time goes on, or tells `on_part`, which makes room.
     std::uint64_t room = kEndless;

@@ -239,11 +239,13 @@ std::uint32_t EventLoopOf<A>::find_beside(std::uint32_t i, std::uint32_t id, boo
 /// Notes a ball's anchor, that is about to be overwritten.
 template <Acceleration A>
 void EventLoopOf<A>::keep_anchor(std::uint32_t i) {
-    if (!keeps_anchors || !is_owned(i)) return;
+    if (keeps_anchors == Keeps::kNone || !is_owned(i)) return;
     const Anchor& a = records_[i].anchor;
-    overwritten.push_back(
-        {a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, locals_[i].last_overwritten, i});
-    locals_[i].last_overwritten = static_cast<std::uint32_t>(overwritten.size() - 1);
+    std::uint32_t& last = locals_[i].last_overwritten;
+    const bool is_known = keeps_anchors == Keeps::kAllButFirst && last == kNowhere;
+    overwritten.push_back({a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, last, i});
+    last = is_known ? kAtStart : static_cast<std::uint32_t>(overwritten.size() - 1);
+    if (is_known) overwritten.pop_back();
 }
 
 /// Anchors a ball at `t`, wrapped into the box. Gives the periods that the wrapping took away.

@@ -181,7 +181,8 @@ void WindowedEngine::run(DomainState& d, const Stop& window_end) {
 
 void WindowedEngine::run(DomainState& d, const Stop& window_end, Workshop& w) {
     const auto self = static_cast<std::size_t>(&d - domains_.data());
-    w.loop->keeps_window = w.loop->keeps_anchors = true;
+    w.loop->keeps_window = true;
+    w.loop->keeps_anchors = Keeps::kAllButFirst;
     w.loop->is_patient = false;  // all balls together will tell
     d.region = {bodies_.grid, d.x, d.y, d.halo};
     d.swap_tables(*w.loop);

@@ -89,7 +89,8 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
     const Lease lease(*this);
     Workshop& w = *lease;
     w.loop->keeps_window = false;  // nobody compares
-    w.loop->keeps_anchors = w.loop->is_patient = true;
+    w.loop->keeps_anchors = Keeps::kAll;
+    w.loop->is_patient = true;
     load(w, kAll, {bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0}, 0, window_end.time, false);
     EventLoop& loop = *w.loop;
     loop.room = may_end_early ? loop.room_for(kMostCollisionsTogether) : EventLoop::kEndless;
@@ -146,7 +147,8 @@ void WindowedEngine::predict_anew(bool renews_field) {
         DomainState& d = domains_[k];
         const Lease lease(*this);
         Workshop& w = *lease;
-        w.loop->keeps_window = w.loop->keeps_anchors = false;
+        w.loop->keeps_window = false;
+        w.loop->keeps_anchors = Keeps::kNone;
         load(w, k, {bodies_.grid, d.x, d.y, kSight}, kSight, kNever, false);
         if (renews_field) w.loop->renew_field(window_start_);
         w.loop->predict_all(nullptr);

@@ -110,6 +110,7 @@ class WindowedEngine final : public Engine {
     [[nodiscard]] std::vector<std::uint32_t> latest_until(const DomainState& d, const Time& t) const;
     [[nodiscard]] Past past_of(const DomainState& d, std::size_t i,
                                const std::vector<std::uint32_t>& latest_of, const Time& t) const;
+    [[nodiscard]] const BallRecord& record_at_start(const DomainState& d, std::size_t i) const;
     void tune(double length, bool agreed);
 
     mutable std::atomic<std::chrono::steady_clock::rep> working_time_ = 0;
@@ -146,8 +147,8 @@ class WindowedEngine::Index {
     Index(const WindowedEngine& engine, const DomainState& d, Roster& roster)
         : grid_(engine.bodies_.grid),
           roster_(roster),
-          inner_x_(inner(d.x, engine)),
-          inner_y_(inner(d.y, engine)) {
+          inner_x_(inner(d.x, grid_.x, engine.halo_)),
+          inner_y_(inner(d.y, grid_.y, engine.halo_)) {
         roster.cells.resize(roster.records.size());
         roster.near_border.resize(roster.records.size());
     }
@@ -169,8 +170,9 @@ class WindowedEngine::Index {
     }
 
  private:
-    static Span inner(const Span& own, const WindowedEngine& engine) {
-        return {own.first + engine.halo_, own.last - engine.halo_};
+    static Span inner(const Span& own, const GridAxis& axis, std::int32_t halo) {
+        const bool has_border = !axis.periodic() || own.size() < axis.count();
+        return has_border ? Span{own.first + halo, own.last - halo} : own;
     }
     const Grid& grid_;
     Roster& roster_;

@@ -135,10 +135,21 @@ WindowedEngine::Past WindowedEngine::past_of(const DomainState& d, std::size_t i
                                              const Time& t) const {
     const BallRecord& r = held(d).records[i];
     const std::uint32_t latest = in_window_ ? latest_of[d.end.places[i]] : kNowhere;
-    if (latest == kNowhere || r.anchor.time <= t)
+    if (!in_window_ || r.anchor.time <= t)
         return {r.anchor, r.periods, in_window_ && d.last_overwritten[i] != kNowhere};
+    if (latest == kNowhere) {
+        const BallRecord& at_start = record_at_start(d, i);
+        return {at_start.anchor, at_start.periods, false};
+    }
     const OverwrittenAnchor& o = d.overwritten[latest];
     return {anchor_of(o), o.periods, o.previous != kNowhere};
+}
+
+/// What a ball of a domain's own was at the window's start. Precondition: its chain of overwritten anchors
+/// ends there.
+const BallRecord& WindowedEngine::record_at_start(const DomainState& d, std::size_t i) const {
+    const Origin& origin = d.end.origins[i];
+    return domains_[origin.domain].start.records[origin.index];
 }
 
 void WindowedEngine::read_domains(std::span<std::uint32_t> domains) const {
@@ -167,10 +178,14 @@ void WindowedEngine::visit_flights(const Stop& from, const Time& to, const Visit
         const auto& records = held(d).records;
         const auto& extras = held(d).extras;
         FlightList flights(bodies_);
-        for (std::size_t i = 0; i < records.size(); ++i)
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            const bool is_known = in_window_ && !d.end.origins.empty();
             visit(records[i].id(),
-                  flights.of(records[i].anchor, extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration,
-                             d.overwritten, in_window_ ? d.last_overwritten[i] : kNowhere, from, to));
+                  flights.of({records[i].anchor, in_window_ ? d.last_overwritten[i] : kNowhere,
+                              is_known ? &record_at_start(d, i).anchor : nullptr},
+                             extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, d.overwritten,
+                             from, to));
+        }
     });
 }
 
