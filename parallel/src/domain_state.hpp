@@ -111,8 +111,14 @@ struct DomainState {
     std::vector<std::uint32_t> last_overwritten;  ///< one a ball of `end`
     std::vector<CollisionNote> notes;
     std::vector<Collision> collisions;  ///< one a note where somebody listens
-    Tally tally;                        ///< of all notes
-    std::size_t told = 0;               ///< so many of the notes lie in the past
+    /// What some notes, one after the other, come to, and when the last of them was.
+    struct Part {
+        Tally tally;
+        Time end;
+    };
+    static constexpr std::size_t kNotesOfPart = 32;
+    std::vector<Part> parts;  ///< of so many notes each
+    std::size_t told = 0;     ///< so many of the notes lie in the past
     std::uint64_t events = 0;
     std::uint64_t copied_collisions = 0;
 
@@ -150,12 +156,28 @@ struct DomainState {
     }
     /// The collisions that count here are those that a loop has noted.
     void count_notes(double typical_virial) {
-        tally.virial.set_scale(typical_virial);
-        for (const CollisionNote& note : notes) tally.count(note);
+        for (std::size_t k = 0; k < notes.size(); ++k) {
+            if (k % kNotesOfPart == 0) parts.emplace_back().tally.virial.set_scale(typical_virial);
+            parts.back().tally.count(notes[k]);
+            parts.back().end = notes[k].time;
+        }
+    }
+    /// Adds what has happened since it was last told, to `until`; whole parts, for the notes may lie in another core's cache.
+    void tell(const Time& until, Tally& sum) {
+        while (told < notes.size()) {
+            const Part& part = parts[told / kNotesOfPart];
+            if (told % kNotesOfPart == 0 && part.end <= until) {
+                sum.count(part.tally);
+                told = std::min(told + kNotesOfPart, notes.size());
+            } else if (notes[told].time <= until) {
+                sum.count(notes[told++]);
+            } else {
+                return;
+            }
+        }
     }
     void forget_notes() {
-        empty(notes, collisions);
-        tally = {};
+        empty(notes, collisions, parts);
         told = 0;
     }
     /// Forgets what the last window came to, but for `end`.

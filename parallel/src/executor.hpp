@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace carom {
@@ -19,6 +20,11 @@ class Executor {
     /// Calls body(first, last) for disjoint parts of [0, count), each at most `grain` long, side by side.
     void for_ranges(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, std::size_t)>& body) const;
+
+    /// Calls each step for all of [0, count), side by side, one step when the one before is done for all.
+    /// With no more of them than threads each keeps to its thread, and none sleeps between steps.
+    using Step = std::function<void(std::size_t)>;
+    void for_each_in_steps(std::size_t count, std::span<const Step> steps) const;
 
     /// Sum over [0, count) of part(first, last): the parts are cut and added in one order whatever the number
     /// of threads.

@@ -2,6 +2,7 @@
 #include "windowed_engine.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -61,10 +62,15 @@ bool WindowedEngine::try_window(const Stop& window_end) {
     for (DomainState& d : domains_) d.halo = halo_;
     disagreeing_ = 0;
     for (int round = 0;; ++round) {
-        for_each_domain([&](std::size_t d) {
+        const auto run_again = [&](std::size_t d) {
             if (runs[d]) run(domains_[d], window_end);
-        });
-        for_each_domain([&](std::size_t d) { compare(domains_[d]); });
+        };
+        const auto compare_all = [&](std::size_t d) { compare(domains_[d]); };
+        executor_.for_each_in_steps(domains_.size(),
+                                    std::array<Executor::Step, 2>{
+                                        [&](std::size_t d) { work(run_again, d); },
+                                        [&](std::size_t d) { work(compare_all, d); },
+                                    });
         runs = disagreeing();
         const auto count = static_cast<std::uint64_t>(std::ranges::count(runs, 1));
         if (count == 0) return true;

@@ -46,10 +46,15 @@ class WindowedEngine final : public Engine {
     template <class F>
     void for_each_domain(F&& f) const {
         executor_.for_ranges(domains_.size(), 1, [&](std::size_t first, std::size_t last) {
-            const auto start = std::chrono::steady_clock::now();
-            for (std::size_t d = first; d < last; ++d) f(d);
-            working_time_ += (std::chrono::steady_clock::now() - start).count();
+            for (std::size_t d = first; d < last; ++d) work(f, d);
         });
+    }
+    /// Does the work of a domain, and counts its time.
+    template <class F>
+    void work(F&& f, std::size_t domain) const {
+        const auto start = std::chrono::steady_clock::now();
+        f(domain);
+        working_time_ += (std::chrono::steady_clock::now() - start).count();
     }
     void split(const std::vector<BallRecord>& records, const std::vector<BallExtra>& extras, Span x, Span y,
                int parts);

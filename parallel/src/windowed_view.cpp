@@ -22,14 +22,7 @@ void WindowedEngine::tell_until(const Stop& end) {
     std::vector<Told> told;
     for (DomainState& d : domains_) {
         const std::size_t first = d.told;
-        const auto is_past = [&end](const CollisionNote& note) { return note.time <= end.time; };
-        const auto last =
-            std::partition_point(d.notes.begin() + std::ptrdiff_t(first), d.notes.end(), is_past);
-        d.told = std::size_t(last - d.notes.begin());
-        if (first == 0 && last == d.notes.end())  // its thread has counted them
-            tally_.count(d.tally);
-        else
-            for (std::size_t k = first; k < d.told; ++k) tally_.count(d.notes[k]);
+        d.tell(end.time, tally_);
         for (std::size_t k = first; listener_ && k < d.told; ++k)
             told.push_back({&d.notes[k], &d.collisions[k]});
     }
