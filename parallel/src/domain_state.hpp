@@ -162,7 +162,8 @@ struct DomainState {
             parts.back().end = notes[k].time;
         }
     }
-    /// Adds what has happened since it was last told, to `until`; whole parts, for the notes may lie in another core's cache.
+    /// Adds what has happened since it was last told, to `until`; whole parts, for the notes may lie in
+    /// another core's cache.
     void tell(const Time& until, Tally& sum) {
         while (told < notes.size()) {
             const Part& part = parts[told / kNotesOfPart];

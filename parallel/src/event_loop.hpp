@@ -98,8 +98,8 @@ struct OverwrittenAnchor {
 };
 static_assert(sizeof(OverwrittenAnchor) == 64);
 inline constexpr std::uint32_t kAtStart = kNowhere - 1;
-/// Which overwritten anchors are kept.
-enum class Keeps : std::uint8_t { kNone, kAllButFirst, kAll };  // but the first of each ball
+/// Which overwritten anchors are kept: the first one of each ball is the one that a window started with.
+enum class Keeps : std::uint8_t { kNone, kAllButFirst, kAll };
 /// As far as the way from there on depends on it.
 [[nodiscard]] inline Anchor anchor_of(const OverwrittenAnchor& o) {
     return {o.x, o.y, o.vx, o.vy, o.time, 0, 0, {}};

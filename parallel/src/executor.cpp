@@ -46,7 +46,7 @@ class Crew {
 
     std::size_t count_;
     std::span<const Executor::Step> steps_;
-    std::vector<std::atomic<bool>> begun_;         // a part of a step
+    std::vector<std::atomic<bool>> begun_;        // a part of a step
     std::vector<std::atomic<std::size_t>> done_;  // parts of a step
     std::atomic<bool> has_failed_ = false;
     std::mutex mutex_;

@@ -66,11 +66,10 @@ bool WindowedEngine::try_window(const Stop& window_end) {
             if (runs[d]) run(domains_[d], window_end);
         };
         const auto compare_all = [&](std::size_t d) { compare(domains_[d]); };
-        executor_.for_each_in_steps(domains_.size(),
-                                    std::array<Executor::Step, 2>{
-                                        [&](std::size_t d) { work(run_again, d); },
-                                        [&](std::size_t d) { work(compare_all, d); },
-                                    });
+        executor_.for_each_in_steps(domains_.size(), std::array<Executor::Step, 2>{
+                                                         [&](std::size_t d) { work(run_again, d); },
+                                                         [&](std::size_t d) { work(compare_all, d); },
+                                                     });
         runs = disagreeing();
         const auto count = static_cast<std::uint64_t>(std::ranges::count(runs, 1));
         if (count == 0) return true;
