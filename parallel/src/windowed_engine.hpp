@@ -15,6 +15,7 @@
 
 #include "domain_state.hpp"
 #include "engine.hpp"
+#include "put_aside.hpp"
 
 namespace carom {
 
@@ -165,13 +166,16 @@ class WindowedEngine::Index {
     Index(const Index&) = delete;
     Index& operator=(const Index&) = delete;
 
-    void add(std::uint32_t k, const BallRecord& record) {
+    /// Gives whether the ball is near the border.
+    bool add(std::uint32_t k, const BallRecord& record) {
         const CellCoordinates c = fold_periodic(grid_, record.anchor.cell);
         roster_.cells[k] = c;
         roster_.near_border[near_] = k;
-        near_ += inner_x_.contains(c.x) && inner_y_.contains(c.y) ? 0 : 1;
+        const bool is_near = !inner_x_.contains(c.x) || !inner_y_.contains(c.y);
+        near_ += is_near ? 1 : 0;
         x_ = {std::min(x_.first, c.x), std::max(x_.last, c.x + 1)};
         y_ = {std::min(y_.first, c.y), std::max(y_.last, c.y + 1)};
+        return is_near;
     }
 
  private:
@@ -201,11 +205,15 @@ void WindowedEngine::keep_own(DomainState& d, const Workshop& w, F&& look) const
     for (std::uint32_t k = 0; k < count; ++k) {
         const std::uint32_t i = w.own[k];
         end.origins[k] = w.origins[i];
-        end.records[k] = records[i];
         if (!end.extras.empty()) end.extras[k] = w.loop->extra(i);
-        index.add(k, records[i]);
+        // What lies deep inside is read when the window is undone or looked into.
+        if (index.add(k, records[i]))
+            end.records[k] = records[i];
+        else
+            put_aside(end.records[k], records[i]);
         look(k, i);
     }
+    finish_aside();
 }
 
 /// A workshop taken from the idle ones for a while.
