@@ -240,12 +240,14 @@ std::uint32_t EventLoopOf<A>::find_beside(std::uint32_t i, std::uint32_t id, boo
 template <Acceleration A>
 void EventLoopOf<A>::keep_anchor(std::uint32_t i) {
     if (keeps_anchors == Keeps::kNone || !is_owned(i)) return;
-    const Anchor& a = records_[i].anchor;
     std::uint32_t& last = locals_[i].last_overwritten;
-    const bool is_known = keeps_anchors == Keeps::kAllButFirst && last == kNowhere;
+    if (keeps_anchors == Keeps::kAllButFirst && last == kNowhere) {
+        last = kAtStart;
+        return;
+    }
+    const Anchor& a = records_[i].anchor;
     overwritten.push_back({a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, last, i});
-    last = is_known ? kAtStart : static_cast<std::uint32_t>(overwritten.size() - 1);
-    if (is_known) overwritten.pop_back();
+    last = static_cast<std::uint32_t>(overwritten.size() - 1);
 }
 
 /// Anchors a ball at `t`, wrapped into the box. Gives the periods that the wrapping took away.

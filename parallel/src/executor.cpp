@@ -2,8 +2,6 @@
 #include "executor.hpp"
 
 #include <atomic>
-#include <exception>
-#include <mutex>
 #include <thread>
 
 namespace carom {
@@ -22,15 +20,10 @@ class Crew {
         for (std::size_t s = 0; s < steps_.size() && !has_failed_; ++s) {
             for (std::size_t k = 0; k < count_; ++k) {
                 const std::size_t part = (own + k) % count_;
-                if (begun_[s * count_ + part].exchange(true)) continue;
-                run(s, part);
-                ++done_[s];
+                if (!begun_[s * count_ + part].exchange(true)) run(s, part);
             }
             while (done_[s] < count_) std::this_thread::yield();
         }
-    }
-    void rethrow() const {
-        if (failure_) std::rethrow_exception(failure_);
     }
 
  private:
@@ -38,10 +31,11 @@ class Crew {
         try {
             steps_[s](part);
         } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (!failure_) failure_ = std::current_exception();
             has_failed_ = true;
+            ++done_[s];  // who waits must see the failure first
+            throw;
         }
+        ++done_[s];
     }
 
     std::size_t count_;
@@ -49,8 +43,6 @@ class Crew {
     std::vector<std::atomic<bool>> begun_;        // a part of a step
     std::vector<std::atomic<std::size_t>> done_;  // parts of a step
     std::atomic<bool> has_failed_ = false;
-    std::mutex mutex_;
-    std::exception_ptr failure_;
 };
 
 }  // namespace
@@ -67,7 +59,6 @@ void Executor::for_each_in_steps(std::size_t count, std::span<const Step> steps)
     for_ranges(count, 1, [&crew](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) crew.work(k);
     });
-    crew.rethrow();
 }
 
 }  // namespace carom

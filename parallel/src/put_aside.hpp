@@ -1,6 +1,7 @@
 // Copies of records that are not read again soon.
 #pragma once
 
+#include <cstddef>
 #include <type_traits>
 
 #include "ball_record.hpp"

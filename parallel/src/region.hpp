@@ -103,7 +103,7 @@ class RegionAxis {
     /// Whether a coordinate in the region's frame is among the domain's own and `distance` cells from others.
     [[nodiscard]] bool is_deep_inside(std::int32_t k, std::int32_t distance) const {
         if (periodic_ && own_.size() >= count_) return true;
-        return k - own_.first >= distance && own_.last - 1 - k >= distance;
+        return k >= own_.first + distance && k < own_.last - distance;  // no overflow far out
     }
     /// The place of a coordinate in the region's frame; -1 outside.
     [[nodiscard]] std::int32_t place(std::int32_t k) const {
@@ -173,6 +173,10 @@ struct Region {
     [[nodiscard]] bool meets(const Region& other) const { return x.meets(other.x) && y.meets(other.y); }
     [[nodiscard]] std::int32_t depth(const CellCoordinates& c) const {
         return std::max(x.depth(c.x), y.depth(c.y));
+    }
+    /// Whether a cell in the region's frame is among the domain's own and `distance` cells from others.
+    [[nodiscard]] bool is_deep_inside(const CellCoordinates& c, std::int32_t distance) const {
+        return x.is_deep_inside(c.x, distance) && y.is_deep_inside(c.y, distance);
     }
     /// What to add to a ball's cell to have it in the region's frame.
     [[nodiscard]] CellCoordinates frame_of(const CellCoordinates& c) const {

@@ -234,7 +234,7 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     });
     for (Meeting& m : d.meetings) m.copy = copy_of[m.copy];
     for (const Visit& v : d.visits)
-        if (!d.region.x.is_deep_inside(v.cell.x, halo_) || !d.region.y.is_deep_inside(v.cell.y, halo_))
+        if (!d.region.is_deep_inside(v.cell, halo_))
             d.visits_near_border.push_back({w.origins[v.ball], fold_periodic(bodies_.grid, v.cell)});
 }
 

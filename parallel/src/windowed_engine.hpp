@@ -151,10 +151,7 @@ class WindowedEngine final : public Engine {
 class WindowedEngine::Index {
  public:
     Index(const WindowedEngine& engine, const DomainState& d, Roster& roster)
-        : grid_(engine.bodies_.grid),
-          roster_(roster),
-          inner_x_(inner(d.x, grid_.x, engine.halo_)),
-          inner_y_(inner(d.y, grid_.y, engine.halo_)) {
+        : grid_(engine.bodies_.grid), roster_(roster), halo_(engine.halo_), region_(grid_, d.x, d.y, halo_) {
         roster.cells.resize(roster.records.size());
         roster.near_border.resize(roster.records.size());
     }
@@ -171,7 +168,7 @@ class WindowedEngine::Index {
         const CellCoordinates c = fold_periodic(grid_, record.anchor.cell);
         roster_.cells[k] = c;
         roster_.near_border[near_] = k;
-        const bool is_near = !inner_x_.contains(c.x) || !inner_y_.contains(c.y);
+        const bool is_near = !region_.is_deep_inside(c, halo_);
         near_ += is_near ? 1 : 0;
         x_ = {std::min(x_.first, c.x), std::max(x_.last, c.x + 1)};
         y_ = {std::min(y_.first, c.y), std::max(y_.last, c.y + 1)};
@@ -179,13 +176,10 @@ class WindowedEngine::Index {
     }
 
  private:
-    static Span inner(const Span& own, const GridAxis& axis, std::int32_t halo) {
-        const bool has_border = !axis.periodic() || own.size() < axis.count();
-        return has_border ? Span{own.first + halo, own.last - halo} : own;
-    }
     const Grid& grid_;
     Roster& roster_;
-    Span inner_x_, inner_y_;  // cells that no halo as wide as all start with reaches
+    std::int32_t halo_;  // as wide as all start with
+    Region region_;
     std::size_t near_ = 0;
     Span x_{GridAxis::kFarthest, -GridAxis::kFarthest};
     Span y_ = x_;

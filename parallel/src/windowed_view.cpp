@@ -127,9 +127,9 @@ WindowedEngine::Past WindowedEngine::past_of(const DomainState& d, std::size_t i
                                              const std::vector<std::uint32_t>& latest_of,
                                              const Time& t) const {
     const BallRecord& r = held(d).records[i];
-    const std::uint32_t latest = in_window_ ? latest_of[d.end.places[i]] : kNowhere;
     if (!in_window_ || r.anchor.time <= t)
         return {r.anchor, r.periods, in_window_ && d.last_overwritten[i] != kNowhere};
+    const std::uint32_t latest = latest_of[d.end.places[i]];
     if (latest == kNowhere) {
         const BallRecord& at_start = record_at_start(d, i);
         return {at_start.anchor, at_start.periods, false};
@@ -171,14 +171,13 @@ void WindowedEngine::visit_flights(const Stop& from, const Time& to, const Visit
         const auto& records = held(d).records;
         const auto& extras = held(d).extras;
         FlightList flights(bodies_);
-        for (std::size_t i = 0; i < records.size(); ++i) {
-            const bool is_known = in_window_ && !d.end.origins.empty();
+        const bool has_starts = in_window_ && !d.end.origins.empty();
+        for (std::size_t i = 0; i < records.size(); ++i)
             visit(records[i].id(),
                   flights.of({records[i].anchor, in_window_ ? d.last_overwritten[i] : kNowhere,
-                              is_known ? &record_at_start(d, i).anchor : nullptr},
+                              has_starts ? &record_at_start(d, i).anchor : nullptr},
                              extras.empty() ? Vec2(Vec2::Zero()) : extras[i].acceleration, d.overwritten,
                              from, to));
-        }
     });
 }
 
