@@ -374,7 +374,8 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
 template <Acceleration A>
 void EventLoopOf<A>::keep_meeting(std::uint32_t i, std::uint32_t j, Image image, const Time& t) {
     Hash hash;
-    hash << t.offset << std::uint64_t{records_[i].id()} << std::uint64_t{records_[j].id()};
+    hash << static_cast<std::uint64_t>(t.epoch) << t.offset;
+    hash << std::uint64_t{records_[i].id()} << std::uint64_t{records_[j].id()};
     hash << static_cast<std::uint64_t>(image.x) << static_cast<std::uint64_t>(image.y);
     for (const std::uint32_t k : {i, j}) {
         const Anchor& a = records_[k].anchor;
@@ -449,7 +450,7 @@ void EventLoopOf<A>::remember(std::uint32_t i, const Time& t, std::uint32_t part
         h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL + more;
     };
     fold(std::bit_cast<std::uint64_t>(t.offset), partner);
-    fold(std::bit_cast<std::uint64_t>(records_[i].anchor.vx), 0);
+    fold(std::bit_cast<std::uint64_t>(records_[i].anchor.vx), static_cast<std::uint64_t>(t.epoch));
     fold(std::bit_cast<std::uint64_t>(records_[i].anchor.vy), 0);
     locals_[i].history = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL;
 }

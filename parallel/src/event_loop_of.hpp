@@ -164,10 +164,7 @@ class EventLoopOf final : public EventLoop {
     [[nodiscard]] NextEvent search_among(std::uint32_t i, const Candidates& found, bool has_looked) const;
     void expect(std::uint32_t i, const NextEvent& event);
     /// Asks for the memory of a ball ahead of its use.
-    void fetch(std::uint32_t i) const {
-        __builtin_prefetch(&records_[i].anchor);
-        __builtin_prefetch(&records_[i].next);
-    }
+    void fetch(std::uint32_t i) const { carom::fetch(records_[i]); }
     /// Of one that will have an event.
     void fetch_own(std::uint32_t i) const {
         fetch(i);

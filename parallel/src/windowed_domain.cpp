@@ -32,10 +32,15 @@ void WindowedEngine::pack(std::uint32_t from, const Region& region, std::int32_t
                              Origin{from, k}, source.origins.empty() ? Origin{} : source.origins[k],
                              region.depth(region.framed(c)));
     };
-    if (halo <= halo_)
-        std::ranges::for_each(source.near_border, pack_one);
-    else
+    if (halo <= halo_) {
+        const std::vector<std::uint32_t>& near = source.near_border;
+        for (std::size_t n = 0; n < near.size(); ++n) {
+            if (n + kFetchedAhead < near.size()) fetch(source.records[near[n + kFetchedAhead]]);
+            pack_one(near[n]);
+        }
+    } else {
         for (std::uint32_t k = 0; k < source.records.size(); ++k) pack_one(k);
+    }
 }
 
 /// Adds what domain `self` holds and stays with it; the message gets what has left it for the halo.
@@ -120,6 +125,9 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
         if (d != self) pack(d, region, halo, w.message);
     w.places.assign(w.message.size(), kNowhere);
     for (std::size_t k = 0; k < w.message.size(); ++k) {
+        if (k + kFetchedAhead < w.message.size())
+            if (const std::uint32_t ahead = here(w.message[k + kFetchedAhead].before); ahead != kNowhere)
+                fetch(loop.records()[ahead]);
         const BallMessage& ball = w.message[k];
         std::uint32_t& place = here(ball.before);
         if (place == kNowhere) continue;

@@ -185,7 +185,7 @@ void WindowedEngine::commit() {
         split_anew();
 }
 
-/// A window ends with its epoch at the latest. Between windows, epochs in which nothing happens are left out.
+/// Between windows, epochs in which nothing happens are left out.
 void WindowedEngine::skip_quiet_epochs(const Time& until) {
     const Clock& clock = bodies_.physics.clock;
     Time first = until;
@@ -207,8 +207,7 @@ void WindowedEngine::next_window(const Time& wanted, const Time& horizon) {
     const double least = clock.epoch_length() * kLeastWindow;
     for (int shortenings = 0;; ++shortenings) {
         const bool gives_up = shortenings > kMostShortenings || (shortenings > 0 && window_length_ <= least);
-        Stop end{clock.after(window_start_, window_length_), false};
-        if (end.time.epoch > window_start_.epoch) end.time = {window_start_.epoch + 1, 0};
+        Stop end{clock.after(window_start_, std::min(window_length_, clock.epoch_length())), false};
         const Time& last = cuts_windows_ ? std::min(wanted, horizon) : horizon;
         if (end.time >= last) end = {last};
         const double length = clock.difference(end.time, window_start_);
@@ -238,7 +237,7 @@ void WindowedEngine::tune(double length, bool agreed) {
         window_length_ = std::max(length / 2, least);
         return;
     }
-    // One that an epoch's end or the field has cut short tells little.
+    // One that has been cut short, as by the field's renewal, tells little.
     if (length < window_length_ / 2) return;
     const double retried = double(disagreeing_) / double(domains_.size());
     if (retried > 0) growth_ = kGrowth;

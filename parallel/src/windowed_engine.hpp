@@ -197,6 +197,7 @@ void WindowedEngine::keep_own(DomainState& d, const Workshop& w, F&& look) const
     const std::span<const BallRecord> records = w.loop->records();
     Index index(*this, d, end);
     for (std::uint32_t k = 0; k < count; ++k) {
+        if (k + kFetchedAhead < count) fetch(records[w.own[k + kFetchedAhead]]);
         const std::uint32_t i = w.own[k];
         end.origins[k] = w.origins[i];
         if (!end.extras.empty()) end.extras[k] = w.loop->extra(i);
