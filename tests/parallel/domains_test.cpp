@@ -263,6 +263,45 @@ TEST(DomainsOfAGas, ShowWhatOneLoopShowsHoweverOftenItIsAskedFor) {
     }
 }
 
+// Windows of a sparse gas are about as long as the clock's epochs and go over their ends: time and again what
+// lies before and what lies behind one is looked into, undone by an edit, and gone through again with more
+// balls around.
+TEST(DomainsOfASparseGas, GoOverTheEndsOfEpochs) {
+    constexpr double kStep = 3.7;  // an epoch is 8 or 16 long
+    constexpr int kSteps = kIsSanitized ? 15 : 50;
+    const Scene scene = gas(40, {.count = 900, .packing = 0.03, .boundary_y = Boundary::kWall});
+    const auto states_of = [&scene](const WorldOptions& options) {
+        World world(scene, options);
+        std::vector<PlaneVectors> states;
+        for (int k = 1; k <= kSteps; ++k) {
+            world.advance_to(kStep * k);
+            states.push_back(world.unwrapped_positions());
+            if (k % 9 == 0) world.set_velocity(static_cast<std::size_t>(k), {0.3, -1.1});
+        }
+        Outcome end;
+        take_counts(world, end);
+        return std::pair(states, end);
+    };
+    const auto [states, end] = states_of({.threads = 1, .domains = 1});
+    ASSERT_GT(end.balls, kIsSanitized ? 1'000U : 5'000U);
+    std::uint64_t retries = 0;
+    for (const int domains : {2, 3, 5}) {
+        for (const int threads : few_and_enough(domains)) {
+            for (const int halo : {0, 2}) {
+                SCOPED_TRACE(std::to_string(domains) + " domains, halo of " + std::to_string(halo) +
+                             ", threads " + std::to_string(threads));
+                const auto [own_states, own_end] =
+                    states_of({.threads = threads, .domains = domains, .halo = halo});
+                expect_equal(own_end, end);
+                for (std::size_t k = 0; k < states.size(); ++k)
+                    ASSERT_TRUE(own_states[k] == states[k]) << "step " << k;
+                retries += own_end.counts.window_retries;
+            }
+        }
+    }
+    EXPECT_GT(retries, 0U);
+}
+
 TEST(DomainsOfAGas, AListenerMayComeAndGo) {
     const Scene scene = gas(38, {.count = 2000, .packing = 0.4});
     const auto listened = [&scene](int domains) {
