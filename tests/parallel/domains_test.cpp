@@ -276,7 +276,7 @@ TEST(DomainsOfASparseGas, GoOverTheEndsOfEpochs) {
         for (int k = 1; k <= kSteps; ++k) {
             world.advance_to(kStep * k);
             states.push_back(world.unwrapped_positions());
-            if (k % 9 == 0) world.set_velocity(static_cast<std::size_t>(k), {0.3, -1.1});
+            if (k % 9 == 0) world.set_velocity(static_cast<std::uint32_t>(k), {0.3, -1.1});
         }
         Outcome end;
         take_counts(world, end);
