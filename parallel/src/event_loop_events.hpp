@@ -374,12 +374,11 @@ void EventLoopOf<A>::collide_pair(std::uint32_t i, std::uint32_t j, Image image,
 template <Acceleration A>
 void EventLoopOf<A>::keep_meeting(std::uint32_t i, std::uint32_t j, Image image, const Time& t) {
     Hash hash;
-    hash << static_cast<std::uint64_t>(t.epoch) << t.offset;
-    hash << std::uint64_t{records_[i].id()} << std::uint64_t{records_[j].id()};
+    hash << t << std::uint64_t{records_[i].id()} << std::uint64_t{records_[j].id()};
     hash << static_cast<std::uint64_t>(image.x) << static_cast<std::uint64_t>(image.y);
     for (const std::uint32_t k : {i, j}) {
         const Anchor& a = records_[k].anchor;
-        hash << a.x << a.y << a.vx << a.vy << static_cast<std::uint64_t>(a.time.epoch) << a.time.offset;
+        hash << a.x << a.y << a.vx << a.vy << a.time;
     }
     meetings.push_back({is_owned(i) ? j : i, hash.value});
 }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 
+#include <carom/core/clock.hpp>
 #include <carom/core/vector.hpp>
 
 namespace carom {
@@ -26,6 +27,7 @@ struct Hash {
     }
     Hash& operator<<(double x) { return *this << std::bit_cast<std::uint64_t>(x); }
     Hash& operator<<(const Vec2& v) { return *this << v.x() << v.y(); }
+    Hash& operator<<(const Time& t) { return *this << static_cast<std::uint64_t>(t.epoch) << t.offset; }
 };
 
 }  // namespace carom

@@ -267,7 +267,7 @@ TEST(DomainsOfAGas, ShowWhatOneLoopShowsHoweverOftenItIsAskedFor) {
 // lies before and what lies behind one is looked into, undone by an edit, and gone through again with more
 // balls around.
 TEST(DomainsOfASparseGas, GoOverTheEndsOfEpochs) {
-    constexpr double kStep = 3.7;  // an epoch is 8 or 16 long
+    constexpr double kStep = 3.7;  // an epoch is 16 long
     constexpr int kSteps = kIsSanitized ? 15 : 50;
     const Scene scene = gas(40, {.count = 900, .packing = 0.03, .boundary_y = Boundary::kWall});
     const auto states_of = [&scene](const WorldOptions& options) {
