@@ -121,6 +121,7 @@ struct DomainState {
     std::size_t told = 0;     ///< so many of the notes lie in the past
     std::uint64_t events = 0;
     std::uint64_t copied_collisions = 0;
+    double load = 0;  ///< of all windows since the plane was cut, see WindowedEngine::loads()
 
     // For the comparison.
     Region region;
@@ -134,7 +135,8 @@ struct DomainState {
     std::vector<SumOfMeetings> sums;  ///< one a domain met
     std::vector<UnseenVisit> unseen;
     bool failed = false;
-    bool is_full = false;  ///< failed for there was no room for all its collisions
+    bool is_full = false;  ///< failed for there were too many collisions, or no room for them
+    Time full_at;          ///< up to when they are there
 
     /// Of its own where each thread has one domain: what it holds when a window has ended is there for the
     /// next.

@@ -223,6 +223,9 @@ class EventLoop {
     /// What is kept of events must fit the memory: when the load is as high as that, the loop stops before
     /// time goes on, or tells `on_part`, which makes room.
     std::uint64_t room = kEndless;
+    /// The same for collisions since the window's start. Looked at a few times on the way to where the loop
+    /// goes.
+    std::uint64_t most_collisions = kEndless;
     static constexpr std::uint64_t kEndless = std::numeric_limits<std::uint64_t>::max();
     /// Room for so many collisions a ball from now on, and for what few balls may have.
     [[nodiscard]] std::uint64_t room_for(std::uint64_t collisions_of_ball) const {

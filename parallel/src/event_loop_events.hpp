@@ -34,7 +34,8 @@ void EventLoopOf<A>::advance_to(const Time& end, bool inclusive) {
     pass_on_notes();
 }
 
-/// Where anchors are kept for a follower, it is told often enough that they stay few.
+/// Where anchors are kept for a follower, it is told often enough that they stay few. Where there may be too
+/// many collisions, that shows early.
 template <Acceleration A>
 void EventLoopOf<A>::run_in_parts(double end, bool inclusive) {
     constexpr double kParts = 64;
@@ -46,6 +47,13 @@ void EventLoopOf<A>::run_in_parts(double end, bool inclusive) {
             pass_on_notes();
             on_part({epoch_, k * part});
         }
+    }
+    constexpr int kLooks = 8;
+    const double start = now_;
+    for (int look = 1; look < kLooks && most_collisions != kEndless; ++look) {
+        run_until(start + (end - start) * look / kLooks, false);
+        full_ = full_ || collisions_of_all > most_collisions;
+        if (full_) return;
     }
     run_until(end, inclusive);
 }

@@ -1,19 +1,31 @@
 // Cutting the plane in domains.
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "windowed_engine.hpp"
 
 namespace carom {
+namespace {
 
-/// Cuts a rectangle of cells that holds the records into `parts` domains with about as many balls each, at
-/// right angles to the longer side of what is occupied.
+// What a window costs for each ball that it keeps, whatever the ball does, is one: some 0.1 us.
+constexpr double kLoadOfEvent = 5;
+// For each ball, of cutting the plane anew and of filling the domains' loops.
+constexpr double kLoadOfCut = 3;
+// Where a thread has many domains, one may have so many times the mean of balls before the plane is cut anew.
+constexpr double kUneven = 1.5;
+constexpr int kWindowsBetweenCuts = 16;
+
+}  // namespace
+
+/// Cuts a rectangle of cells that holds the records into `parts` domains with about as many balls each.
 void WindowedEngine::split(const std::vector<BallRecord>& records, const std::vector<BallExtra>& extras,
                            Span x, Span y, int parts) {
     std::vector<BallInCell> balls;
     balls.reserve(records.size());
     for (const BallRecord& r : records)
         balls.push_back(
-            {fold_periodic(bodies_.grid, r.anchor.cell), static_cast<std::uint32_t>(balls.size())});
+            {fold_periodic(bodies_.grid, r.anchor.cell), static_cast<std::uint32_t>(balls.size()), 1});
     cut(balls, x, y, parts, [&](std::span<const BallInCell> own, Span own_x, Span own_y) {
         DomainState& d = domains_.emplace_back();
         d.x = own_x;
@@ -27,8 +39,9 @@ void WindowedEngine::split(const std::vector<BallRecord>& records, const std::ve
     });
 }
 
-/// Calls make_domain(balls, x, y) for each part. Only cells and numbers are sorted, for the records are
-/// large; within a part they keep their order.
+/// Cuts a rectangle of cells into parts of about the same load, at right angles to the longer side of what is
+/// occupied, and calls make_domain(balls, x, y) for each. Only cells and numbers are sorted, for the records
+/// are large; within a part they keep their order.
 void WindowedEngine::cut(std::span<BallInCell> balls, Span x, Span y, int parts,
                          const MakeDomain& make_domain) const {
     const auto extent = [&balls](std::int32_t CellCoordinates::* axis) {
@@ -43,18 +56,22 @@ void WindowedEngine::cut(std::span<BallInCell> balls, Span x, Span y, int parts,
         const bool across = (extent_x.size() >= extent_y.size()) == (attempt == 0);
         const auto axis = across ? &CellCoordinates::x : &CellCoordinates::y;
         const Span occupied = across ? extent_x : extent_y;
-        std::vector<std::size_t> counts(static_cast<std::size_t>(occupied.size()), 0);
-        if (counts.size() < 2 || counts.size() > 64 * balls.size() + 1024) continue;
-        for (const BallInCell& b : balls) ++counts[static_cast<std::size_t>(b.cell.*axis - occupied.first)];
-        const double share = double(balls.size()) * left_parts / parts;
+        const auto cells = static_cast<std::size_t>(occupied.size());
+        if (cells < 2 || cells > 64 * balls.size() + 1024) continue;
+        std::vector<double> loads(cells, 0);
+        double all = 0;
+        for (const BallInCell& b : balls) {
+            loads[static_cast<std::size_t>(b.cell.*axis - occupied.first)] += b.load;
+            all += b.load;
+        }
+        const double share = all * left_parts / parts;
         std::int32_t cut_at = occupied.first + 1;
-        std::size_t before = counts[0];
+        double before = loads[0];
         while (cut_at < occupied.last - 1 &&
-               double(before) + double(counts[static_cast<std::size_t>(cut_at - occupied.first)]) / 2 < share)
-            before += counts[static_cast<std::size_t>(cut_at++ - occupied.first)];
+               before + loads[static_cast<std::size_t>(cut_at - occupied.first)] / 2 < share)
+            before += loads[static_cast<std::size_t>(cut_at++ - occupied.first)];
 
         std::vector<BallInCell> beyond;
-        beyond.reserve(balls.size() - before);
         auto kept = balls.begin();
         for (const BallInCell& b : balls) {
             if (b.cell.*axis < cut_at)
@@ -64,18 +81,91 @@ void WindowedEngine::cut(std::span<BallInCell> balls, Span x, Span y, int parts,
         }
         std::ranges::copy(beyond, kept);
         beyond = {};
+        const auto count = static_cast<std::size_t>(kept - balls.begin());
         Span& side = across ? x : y;
         const Span lower{side.first, cut_at};
         const Span upper{cut_at, side.last};
         side = lower;
-        cut(balls.first(before), x, y, left_parts, make_domain);
+        cut(balls.first(count), x, y, left_parts, make_domain);
         side = upper;
-        cut(balls.subspan(before), x, y, parts - left_parts, make_domain);
+        cut(balls.subspan(count), x, y, parts - left_parts, make_domain);
         return;
     }
     make_domain(balls, x, y);
 }
 
+/// Adds what the domains had to do in a window, if it was each domain's own.
+void WindowedEngine::weigh_window() {
+    ++since_cut_;
+    if (std::ranges::any_of(
+            domains_, [](const DomainState& d) { return d.end.origins.size() != d.end.records.size(); }))
+        return;
+    for (DomainState& d : domains_) d.load += double(d.end.records.size()) + kLoadOfEvent * double(d.events);
+}
+
+/// Whether it is worth while to cut the plane anew, a window having ended. Where each thread has one domain
+/// all wait for the busiest one, and what that has cost since the last cut pays for another one. Where a
+/// thread has many they even out; then the balls count, which a domain's tables must hold.
+bool WindowedEngine::is_uneven() const {
+    double most = 0;
+    double all = 0;
+    for (const DomainState& d : domains_) {
+        const double share = loops_stay_ ? d.load : double(d.end.records.size());
+        most = std::max(most, share);
+        all += share;
+    }
+    const double mean = all / double(domains_.size());
+    if (loops_stay_)
+        return double(domains_.size()) * (most - mean) > patience_ * kLoadOfCut * double(bodies_.moving);
+    return since_cut_ >= kWindowsBetweenCuts && most > kUneven * mean;
+}
+
+/// What each ball, in the order of domains and of their rosters at a window's end, has cost in the window:
+/// its collisions, and its share of the domain's other events.
+std::vector<float> WindowedEngine::loads() const {
+    std::vector<float> loads;
+    loads.reserve(bodies_.moving);
+    for (const DomainState& d : domains_) {
+        const double balls = double(d.end.records.size());
+        const double others = double(d.events - std::min<std::uint64_t>(d.events, d.notes.size())) / balls;
+        for (std::size_t k = 0; k < d.end.records.size(); ++k) {
+            double collisions = 0;
+            if (!d.end.origins.empty()) {  // or nobody knows which ball it was
+                const Origin& origin = d.end.origins[k];
+                const Anchor& before = domains_[origin.domain].start.records[origin.index].anchor;
+                collisions = double(d.end.records[k].anchor.stamp - before.stamp) / 2;
+            }
+            loads.push_back(static_cast<float>(1 + kLoadOfEvent * (collisions + others)));
+        }
+    }
+    return loads;
+}
+
+/// Cuts the plane in domains of about the same load, those of the records at a window's start. Who has
+/// another rectangle of cells than before is sent its balls when it fills.
+void WindowedEngine::cut_anew(const std::vector<float>& loads) {
+    std::vector<BallInCell> balls;
+    balls.reserve(loads.size());
+    for (const DomainState& d : domains_)
+        for (const CellCoordinates& cell : d.start.cells)
+            balls.push_back({cell, static_cast<std::uint32_t>(balls.size()), loads[balls.size()]});
+    std::vector<std::pair<Span, Span>> parts;
+    cut(balls, whole(bodies_.grid.x), whole(bodies_.grid.y), wanted_domains_,
+        [&parts](std::span<const BallInCell>, Span x, Span y) { parts.emplace_back(x, y); });
+    since_cut_ = 0;
+    patience_ = 2 * patience_;  // in vain where the cells are too coarse for more
+    if (parts.size() != domains_.size()) return split_anew();
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        DomainState& d = domains_[k];
+        d.load = 0;
+        if (std::pair(d.x, d.y) == parts[k]) continue;
+        std::tie(d.x, d.y) = parts[k];
+        index(d, d.start);
+        patience_ = 1;
+    }
+}
+
+/// The same with as many domains as can be, each of which begins with its own balls.
 void WindowedEngine::split_anew() {
     std::vector<BallRecord> records;
     std::vector<BallExtra> extras;
@@ -87,7 +177,6 @@ void WindowedEngine::split_anew() {
     }
     domains_.clear();
     split(records, extras, whole(bodies_.grid.x), whole(bodies_.grid.y), wanted_domains_);
-    since_split_ = 0;
 }
 
 /// Where the balls of one of domain d's rosters are.

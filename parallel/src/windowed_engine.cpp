@@ -25,12 +25,12 @@ constexpr double kGrowth = 1.002;
 constexpr double kShrinkage = 0.8;  // where all had to run again; the power of the share that had to
 constexpr double kLeastTarget = 0.05;
 constexpr double kMostTarget = 4;
-constexpr int kMostShortenings = 5;
 // All balls in one loop end a window after so many collisions a ball.
 constexpr std::uint64_t kMostCollisionsTogether = 8;
-// A domain may have so many times the mean of balls before the plane is cut anew.
-constexpr double kUneven = 1.5;
-constexpr int kWindowsBetweenSplits = 16;
+// A window that has so many times the collisions that it aims at is too long, whatever else is wrong.
+constexpr double kTooMany = 1.5;
+// So much of its first length is the least that a window is made before it goes through one loop.
+constexpr double kMostShortened = 1.0 / 64;
 
 /// The halo of a domain that runs again.
 constexpr std::int32_t widened(std::int32_t halo) {
@@ -76,7 +76,8 @@ bool WindowedEngine::try_window(const Stop& window_end) {
         counts_.window_retries += count;
         disagreeing_ += count;
         const bool gives_up = round == kMostRepairs || 4 * count > 3 * domains_.size() + 4 ||
-                              std::ranges::any_of(domains_, &DomainState::is_full);
+                              std::ranges::any_of(domains_, &DomainState::is_full) ||
+                              collisions_of_window() > too_many(kTooMany);
         if (gives_up) {
             forget_loops();
             return false;
@@ -98,6 +99,7 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
     w.loop->is_patient = true;
     load(w, kAll, {bodies_.grid, whole(bodies_.grid.x), whole(bodies_.grid.y), 0}, 0, window_end.time, false);
     EventLoop& loop = *w.loop;
+    loop.most_collisions = EventLoop::kEndless;
     loop.room = may_end_early ? loop.room_for(kMostCollisionsTogether) : EventLoop::kEndless;
     loop.start();
     loop.advance_to(window_end.time, window_end.is_whole);
@@ -105,6 +107,7 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
     for (DomainState& d : domains_) {
         d.clear_outcome();
         d.end.clear();
+        d.is_full = false;
     }
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
         DomainState& d = domains_[w.origins[i].domain];
@@ -169,20 +172,19 @@ void WindowedEngine::predict_anew(bool renews_field) {
 /// The end of the window becomes the start of the next one.
 void WindowedEngine::commit() {
     if (!in_window_) return;
-    std::size_t most = 0;
+    weigh_window();
+    const bool cuts = is_uneven();
+    const std::vector<float> loads = cuts ? this->loads() : std::vector<float>{};
     was_quiet_ = std::ranges::all_of(domains_, [](const DomainState& d) { return d.events == 0; });
     for (DomainState& d : domains_) {
         std::swap(d.start, d.end);
         d.outcomes.resize(d.start.records.size());
         counts_.events += d.events;
         counts_.copied_collisions += d.copied_collisions;
-        most = std::max(most, d.start.records.size());
     }
     window_start_ = window_end_.time;
     in_window_ = false;
-    if (++since_split_ >= kWindowsBetweenSplits &&
-        double(most) * double(domains_.size()) > kUneven * double(bodies_.moving))
-        split_anew();
+    if (cuts) cut_anew(loads);
 }
 
 /// Between windows, epochs in which nothing happens are left out.
@@ -204,9 +206,9 @@ void WindowedEngine::next_window(const Time& wanted, const Time& horizon) {
     const Clock& clock = bodies_.physics.clock;
     commit();
     if (was_quiet_) skip_quiet_epochs(std::min(wanted, horizon));
-    const double least = clock.epoch_length() * kLeastWindow;
-    for (int shortenings = 0;; ++shortenings) {
-        const bool gives_up = shortenings > kMostShortenings || (shortenings > 0 && window_length_ <= least);
+    const double least = std::max(clock.epoch_length() * kLeastWindow, window_length_ * kMostShortened);
+    for (bool again = false;; again = true) {
+        const bool gives_up = again && window_length_ <= least;
         Stop end{clock.after(window_start_, std::min(window_length_, clock.epoch_length())), false};
         const Time& last = cuts_windows_ ? std::min(wanted, horizon) : horizon;
         if (end.time >= last) end = {last};
@@ -221,6 +223,7 @@ void WindowedEngine::next_window(const Time& wanted, const Time& horizon) {
         }
         counts_.windows += domains_.size();
         tune(length, agreed);
+        window_length_ = std::max(least, window_length_);
         if (!agreed && !gives_up) continue;
         window_end_ = end;
         in_window_ = true;
@@ -228,13 +231,17 @@ void WindowedEngine::next_window(const Time& wanted, const Time& horizon) {
     }
 }
 
+double WindowedEngine::collisions_of_window() const {
+    double collisions = 0;
+    for (const DomainState& d : domains_) collisions += double(d.notes.size());
+    return collisions;
+}
+
 /// Aims the next window at a number of collisions a ball that the halo stands.
 void WindowedEngine::tune(double length, bool agreed) {
-    const double least = bodies_.physics.clock.epoch_length() * kLeastWindow;
+    const double collisions = collisions_of_window();
     if (!agreed) {
-        target_ = std::max(kLeastTarget, target_ * kShrinkage);
-        growth_ = kGrowth;
-        window_length_ = std::max(length / 2, least);
+        window_length_ = shortened(length, collisions);
         return;
     }
     // One that has been cut short, as by the field's renewal, tells little.
@@ -242,11 +249,25 @@ void WindowedEngine::tune(double length, bool agreed) {
     const double retried = double(disagreeing_) / double(domains_.size());
     if (retried > 0) growth_ = kGrowth;
     target_ = std::min(kMostTarget, target_ * growth_ * std::pow(kShrinkage, retried));
-    double collisions = 0;
-    for (const DomainState& d : domains_) collisions += double(d.notes.size());
-    const double a_ball = 2 * collisions / std::max(1.0, double(bodies_.moving));
-    const double wanted = a_ball > 0 ? length * target_ / a_ball : 2 * length;
-    window_length_ = std::max(least, std::clamp(wanted, length / 2, std::max(2 * length, window_length_)));
+    const double wanted = collisions > 0 ? length * collisions_aimed_at() / collisions : 2 * length;
+    window_length_ = std::clamp(wanted, length / 2, std::max(2 * length, window_length_));
+}
+
+/// The length of a window in place of one that had so many collisions and is given up: one that has as many
+/// as it should, or half.
+double WindowedEngine::shortened(double length, double collisions) {
+    double wanted = length / 2;
+    for (const DomainState& d : domains_) {
+        if (!d.is_full) continue;
+        const double came = bodies_.physics.clock.difference(d.full_at, window_start_);
+        wanted = std::min(wanted, came * collisions_aimed_at() / double(d.notes.size() + 1));
+    }
+    if (collisions > too_many(kTooMany)) return std::min(wanted, length * collisions_aimed_at() / collisions);
+    if (std::ranges::none_of(domains_, &DomainState::is_full)) {
+        target_ = std::max(kLeastTarget, target_ * kShrinkage);
+        growth_ = kGrowth;
+    }
+    return wanted;
 }
 
 std::unique_ptr<Engine> make_windowed_engine(const Bodies& bodies, const EngineStart& start,

@@ -62,9 +62,14 @@ class WindowedEngine final : public Engine {
     struct BallInCell {
         CellCoordinates cell;
         std::uint32_t record;
+        float load;
     };
     using MakeDomain = std::function<void(std::span<const BallInCell>, Span x, Span y)>;
     void cut(std::span<BallInCell> balls, Span x, Span y, int parts, const MakeDomain& make_domain) const;
+    void weigh_window();
+    [[nodiscard]] bool is_uneven() const;
+    [[nodiscard]] std::vector<float> loads() const;
+    void cut_anew(const std::vector<float>& loads);
     void split_anew();
     void index(const DomainState& d, Roster& roster) const;
     class Index;
@@ -118,6 +123,12 @@ class WindowedEngine final : public Engine {
                                const std::vector<std::uint32_t>& latest_of, const Time& t) const;
     [[nodiscard]] const BallRecord& record_at_start(const DomainState& d, std::size_t i) const;
     void tune(double length, bool agreed);
+    [[nodiscard]] double shortened(double length, double collisions);
+    /// Collisions of all balls in a window that is neither too long nor too short.
+    [[nodiscard]] double collisions_aimed_at() const { return target_ * double(bodies_.moving) / 2; }
+    [[nodiscard]] double collisions_of_window() const;
+    /// More than `times` those, and than chance brings where there are few.
+    [[nodiscard]] double too_many(double times) const { return 1000 + times * collisions_aimed_at(); }
 
     mutable std::atomic<std::chrono::steady_clock::rep> working_time_ = 0;
     const Executor& executor_;
@@ -142,8 +153,9 @@ class WindowedEngine final : public Engine {
     double window_length_;
     std::uint64_t disagreeing_ = 0;  // domains that had to go through the present window again
     double growth_;
-    double target_ = 1;  // collisions a ball in a window
-    int since_split_ = 0;
+    double target_ = 1;       // collisions a ball in a window
+    int since_cut_ = 0;       // windows
+    double patience_ = 1;     // with domains that are uneven, doubled by each cut that changes nothing
     bool was_quiet_ = false;  // the last window had no event
 };
 

@@ -2,6 +2,8 @@
 // mended.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include <carom/parallel/world.hpp>
@@ -233,6 +235,61 @@ TEST(DomainsOfAGas, RetryRarely) {
     ASSERT_GT(late.windows - early.windows, 200U);
     EXPECT_LT(double(late.window_retries - early.window_retries),
               0.05 * double(late.windows - early.windows));
+}
+
+// A gas, and beyond a wall as many balls at rest. Domains of as many balls each would leave one thread with
+// all there is to do.
+TEST(DomainsOfUnevenLoad, ShareTheCollisions) {
+    const Boundary kWall = Boundary::kWall;
+    Scene scene = gas(41, {.count = 2000, .packing = 0.5, .boundary_x = kWall, .boundary_y = kWall});
+    const Vec2 size = scene.domain->box.max - scene.domain->box.min;
+    const auto moving = static_cast<std::uint32_t>(scene.balls.size());
+    scene.walls = {{scene.domain->box.min + Vec2(size.x(), 0), scene.domain->box.max, 1}};
+    for (std::uint32_t k = 0; k < moving; ++k) {
+        Ball still = scene.balls[k];
+        still.position.x() += size.x();
+        still.velocity = Vec2::Zero();
+        scene.balls.push_back(still);
+    }
+    scene.domain->box.max.x() += size.x();
+    for (const int domains : {2, 3}) {
+        World world(scene, {.threads = domains, .domains = domains});
+        std::vector<std::uint64_t> of_ball(scene.balls.size());
+        world.advance_to(4);  // windows have grown, and have shown what there is to do
+        world.on_collision([&of_ball](const Collision& c) { ++of_ball[c.i]; });
+        world.advance_to(6);
+        std::vector<double> of_domain(static_cast<std::size_t>(domains));
+        double all = 0;
+        const std::vector<std::uint32_t> domain_of = world.domains_of_balls();
+        for (std::uint32_t k = 0; k < moving; ++k) {
+            of_domain[domain_of[k]] += double(of_ball[k]);
+            all += double(of_ball[k]);
+        }
+        ASSERT_GT(all, 2000);
+        // A ball at rest costs something as well: up to a third of what one of the gas does. So the share of
+        // the domain that has none of them is at most 4 / 3 of what is due.
+        EXPECT_LT(std::ranges::max(of_domain), 1.45 / domains * all) << domains << " domains";
+    }
+}
+
+// All fall side by side, so that windows become as long as they can be, and then they land. The window that
+// sees that is too long by far; those after it are to have as many collisions as others, in a gas one a ball.
+TEST(DomainsOfUnevenLoad, AWindowTooLongDoesNotShortenTheOthers) {
+    const Boundary kWall = Boundary::kWall;
+    constexpr std::uint64_t kCount = kIsSanitized ? 1000 : 4000;
+    Scene scene = gas(42, {.count = kCount, .packing = 0.5, .boundary_x = kWall, .boundary_y = kWall});
+    for (Ball& b : scene.balls) b.velocity = Vec2::Zero();
+    const double height = scene.domain->box.max.y() - scene.domain->box.min.y();
+    scene.domain->box.min.y() -= height;
+    scene.gravity = {0, -1};
+    const double end = 1.2 * std::sqrt(2 * height);  // they land at five sixths of that
+    const Outcome serial = run(scene, {.threads = 1, .domains = 1}, end);
+    ASSERT_GT(serial.balls, 20 * kCount);
+    for (const int threads : {1, 2}) {
+        const Outcome outcome = run(scene, {.threads = threads, .domains = 2}, end);
+        expect_equal(outcome, serial);
+        EXPECT_GT(2 * outcome.balls, kCount / 2 * (outcome.counts.windows / 2)) << threads << " threads";
+    }
 }
 
 // What is asked for once at a time is read from the engine alone, what is asked for again is kept; in the
