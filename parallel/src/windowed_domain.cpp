@@ -11,8 +11,6 @@ namespace {
 
 // A window aims at a few collisions a ball; there is no room for more than so many.
 constexpr std::uint64_t kMostCollisionsOfBall = 32;
-// It is too long by far where one domain has so many times the collisions that all together should have.
-constexpr double kFarTooMany = 2;
 const Time& end_at(const std::vector<Time>& ends, std::int32_t depth) {
     return ends[std::min(static_cast<std::size_t>(depth), ends.size() - 1)];
 }
@@ -202,7 +200,7 @@ void WindowedEngine::run(DomainState& d, const Stop& window_end, Workshop& w) {
         w.loop->start();
     }
     w.loop->room = w.loop->room_for(kMostCollisionsOfBall);
-    w.loop->most_collisions = static_cast<std::uint64_t>(too_many(kFarTooMany));
+    w.loop->most_collisions = static_cast<std::uint64_t>(too_many());
     try {
         w.loop->advance_to(window_end.time, window_end.is_whole);
         d.failed = w.loop->has_failed() || w.loop->is_full();

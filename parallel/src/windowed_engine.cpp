@@ -27,8 +27,6 @@ constexpr double kLeastTarget = 0.05;
 constexpr double kMostTarget = 4;
 // All balls in one loop end a window after so many collisions a ball.
 constexpr std::uint64_t kMostCollisionsTogether = 8;
-// A window that has so many times the collisions that it aims at is too long, whatever else is wrong.
-constexpr double kTooMany = 1.5;
 // So much of its first length is the least that a window is made before it goes through one loop.
 constexpr double kMostShortened = 1.0 / 64;
 
@@ -77,7 +75,7 @@ bool WindowedEngine::try_window(const Stop& window_end) {
         disagreeing_ += count;
         const bool gives_up = round == kMostRepairs || 4 * count > 3 * domains_.size() + 4 ||
                               std::ranges::any_of(domains_, &DomainState::is_full) ||
-                              collisions_of_window() > too_many(kTooMany);
+                              collisions_of_window() > too_many();
         if (gives_up) {
             forget_loops();
             return false;
@@ -262,7 +260,7 @@ double WindowedEngine::shortened(double length, double collisions) {
         const double came = bodies_.physics.clock.difference(d.full_at, window_start_);
         wanted = std::min(wanted, came * collisions_aimed_at() / double(d.notes.size() + 1));
     }
-    if (collisions > too_many(kTooMany)) return std::min(wanted, length * collisions_aimed_at() / collisions);
+    if (collisions > too_many()) return std::min(wanted, length * collisions_aimed_at() / collisions);
     if (std::ranges::none_of(domains_, &DomainState::is_full)) {
         target_ = std::max(kLeastTarget, target_ * kShrinkage);
         growth_ = kGrowth;

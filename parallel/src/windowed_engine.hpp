@@ -127,8 +127,9 @@ class WindowedEngine final : public Engine {
     /// Collisions of all balls in a window that is neither too long nor too short.
     [[nodiscard]] double collisions_aimed_at() const { return target_ * double(bodies_.moving) / 2; }
     [[nodiscard]] double collisions_of_window() const;
-    /// More than `times` those, and than chance brings where there are few.
-    [[nodiscard]] double too_many(double times) const { return 1000 + times * collisions_aimed_at(); }
+    /// A window with more collisions is too long, whatever else is wrong; chance may bring more where it aims
+    /// at few.
+    [[nodiscard]] double too_many() const { return 1000 + 1.5 * collisions_aimed_at(); }
 
     mutable std::atomic<std::chrono::steady_clock::rep> working_time_ = 0;
     const Executor& executor_;
