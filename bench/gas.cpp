@@ -1,13 +1,16 @@
-// carom_gas: the engine's speed on the baseline's gas, in one line of the baseline's form.
+// carom_gas: the engine's speed on the baseline's gas, in one line of the baseline's form; or on a scene.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include <carom/io/scene_file.hpp>
 #include <carom/parallel/world.hpp>
 
 #include "gas_scene.hpp"
@@ -72,6 +75,35 @@ class Slices {
     std::vector<double> speeds_;
 };
 
+/// What collisions have cost.
+struct Price {
+    double speed = 0;                 ///< collisions a second
+    double events = 0;                ///< a collision
+    double copied = 0;                ///< collisions of copies, a collision
+    double collisions_of_window = 0;  ///< of one domain's
+    double retried = 0;               ///< windows that were gone through again, a window
+    double worked = 0;                ///< of the threads' time
+};
+Price price_since(const World& world, const Counts& before, double worked, double elapsed) {
+    const Counts after = world.counts();
+    const auto collisions = static_cast<double>(after.ball_collisions - before.ball_collisions);
+    const double each = std::max(1.0, collisions);
+    const double windows = std::max(1.0, static_cast<double>(after.windows - before.windows));
+    return {
+        .speed = collisions / elapsed,
+        .events = static_cast<double>(after.events - before.events) / each,
+        .copied = static_cast<double>(after.copied_collisions - before.copied_collisions) / each,
+        .collisions_of_window = collisions / windows,
+        .retried = static_cast<double>(after.window_retries - before.window_retries) / windows,
+        .worked = (world.working_seconds() - worked) / (elapsed * world.threads()),
+    };
+}
+void print(const World& world, const Price& price, double undisturbed) {
+    std::printf("threads=%d copied=%.1f%% windows=%.2f retried=%.1f%% worked=%.1f%% undisturbed=%.4g\n",
+                world.threads(), 100 * price.copied, price.collisions_of_window, 100 * price.retried,
+                100 * price.worked, undisturbed);
+}
+
 void measure(double count, double packing, double seconds, int threads, int domains) {
     WorldOptions options;
     options.threads = threads;
@@ -94,23 +126,29 @@ void measure(double count, double packing, double seconds, int threads, int doma
         }
     } while (slices.elapsed() < seconds);
 
-    const double elapsed = slices.elapsed();
-    const Counts counts_1 = world.counts();
-    const auto collisions = static_cast<double>(counts_1.ball_collisions - counts_0.ball_collisions);
+    const Price price = price_since(world, counts_0, worked_0, slices.elapsed());
     const double kinetic = energy / (balls - 1) * balls;  // N kT: the momentum is fixed at zero
-    std::printf(
-        "discs=%.0f packing=%.2f collisions_per_second=%.4g events=%.2f Z=%.4f energy_change=%.1e "
-        "threads=%d copied=%.1f%% windows=%.2f retried=%.1f%% "
-        "worked=%.1f%% undisturbed=%.4g\n",
-        balls, packing, collisions / elapsed,
-        static_cast<double>(counts_1.events - counts_0.events) / collisions,
-        1 + (world.virial() - virial_0) / (2 * kinetic * (world.time() - time_0)),
-        world.energy() / energy - 1, world.threads(),
-        100 * static_cast<double>(counts_1.copied_collisions - counts_0.copied_collisions) / collisions,
-        collisions / std::max(1.0, static_cast<double>(counts_1.windows - counts_0.windows)),
-        100 * static_cast<double>(counts_1.window_retries - counts_0.window_retries) /
-            std::max(1.0, static_cast<double>(counts_1.windows - counts_0.windows)),
-        100 * (world.working_seconds() - worked_0) / (elapsed * world.threads()), slices.undisturbed());
+    std::printf("discs=%.0f packing=%.2f collisions_per_second=%.4g events=%.2f Z=%.4f energy_change=%.1e ",
+                balls, packing, price.speed, price.events,
+                1 + (world.virial() - virial_0) / (2 * kinetic * (world.time() - time_0)),
+                world.energy() / energy - 1);
+    print(world, price, slices.undisturbed());
+}
+
+/// A scene from its start to `until`.
+void measure_scene(const char* path, double until, int threads, int domains) {
+    if (!(until > 0)) throw std::invalid_argument("UNTIL is a time above 0");
+    WorldOptions options;
+    options.threads = threads;
+    options.domains = domains;
+    World world(read_scene(path), options);
+    const double worked = world.working_seconds();
+    Slices slices(world);
+    world.advance_to(until);
+    const Price price = price_since(world, {}, worked, slices.elapsed());
+    std::printf("balls=%zu collisions_per_second=%.4g events=%.2f hash=%016llx ", world.ball_count(),
+                price.speed, price.events, static_cast<unsigned long long>(world.state_hash()));
+    print(world, price, slices.undisturbed());
 }
 
 }  // namespace
@@ -118,12 +156,23 @@ void measure(double count, double packing, double seconds, int threads, int doma
 
 int main(int argc, char** argv) {
     if (argc < 3 || argc > 6) {
-        std::fputs("usage: carom_gas COUNT PACKING [SECONDS [THREADS [DOMAINS]]]\n", stderr);
+        std::fputs(
+            "usage: carom_gas COUNT PACKING [SECONDS [THREADS [DOMAINS]]]\n"
+            "       carom_gas SCENE.json UNTIL [THREADS [DOMAINS]]\n",
+            stderr);
         return 2;
     }
+    const auto number = [argc, argv](int k, double otherwise) {
+        return argc > k ? std::atof(argv[k]) : otherwise;
+    };
+    const bool is_scene = std::string_view(argv[1]).ends_with(".json");
     try {
-        carom::bench::measure(std::atof(argv[1]), std::atof(argv[2]), argc > 3 ? std::atof(argv[3]) : 3,
-                              argc > 4 ? std::atoi(argv[4]) : 0, argc > 5 ? std::atoi(argv[5]) : 0);
+        if (is_scene)
+            carom::bench::measure_scene(argv[1], number(2, 0), static_cast<int>(number(3, 0)),
+                                        static_cast<int>(number(4, 0)));
+        else
+            carom::bench::measure(number(1, 0), number(2, 0), number(3, 3), static_cast<int>(number(4, 0)),
+                                  static_cast<int>(number(5, 0)));
     } catch (const std::exception& error) {
         std::fprintf(stderr, "carom_gas: %s\n", error.what());
         return 1;
