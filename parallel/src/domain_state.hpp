@@ -121,7 +121,7 @@ struct DomainState {
     std::size_t told = 0;     ///< so many of the notes lie in the past
     std::uint64_t events = 0;
     std::uint64_t copied_collisions = 0;
-    double load = 0;  ///< of all windows since the plane was cut, see WindowedEngine::loads()
+    double load = 0;  ///< of all windows since the plane was cut, see WindowedEngine::weigh_window()
 
     // For the comparison.
     Region region;
@@ -135,8 +135,9 @@ struct DomainState {
     std::vector<SumOfMeetings> sums;  ///< one a domain met
     std::vector<UnseenVisit> unseen;
     bool failed = false;
-    bool is_full = false;  ///< failed for there were too many collisions, or no room for them
-    Time full_at;          ///< up to when they are there
+    bool is_full = false;       ///< failed for there were too many collisions, or no room for them
+    Time full_at;               ///< up to when they are there
+    std::uint64_t in_turn = 0;  ///< collisions that may have come one after the other
 
     /// Of its own where each thread has one domain: what it holds when a window has ended is there for the
     /// next.

@@ -60,7 +60,7 @@ void EventLoop::clear(const Region& region, const Time& now) {
 
 void EventLoop::forget_window() {
     simultaneous_ = failed_ = full_ = false;
-    turns_ = events_at_once_ = 0;
+    turns_ = events_at_once_ = instants_ = 0;
     events = collisions_of_all = 0;
     empty(notes, collisions, overwritten, visits, meetings);
     if (!keeps_window) return;

@@ -207,8 +207,12 @@ class EventLoop {
     }
     /// Whether a ball of its own went where the loop cannot follow.
     [[nodiscard]] bool has_failed() const { return failed_; }
-    /// Whether `room` was used up: then all events up to and including time_now() are resolved, no later one.
+    /// Whether there were too many collisions, or no room for more: then all events up to and including
+    /// time_now() are resolved, no later one.
     [[nodiscard]] bool is_full() const { return full_; }
+    /// Of so many collisions as many as can have come one after the other: with those that share an instant a
+    /// shorter window has as many.
+    [[nodiscard]] std::uint64_t in_turn(std::uint64_t of) const { return std::min(of, instants_); }
     [[nodiscard]] Time time_now() const { return clock_.after({epoch_, 0}, now_); }
     /// The first broken rule of this file's head comment found for each ball.
     virtual void audit(std::vector<Violation>& found) const = 0;
@@ -223,8 +227,8 @@ class EventLoop {
     /// What is kept of events must fit the memory: when the load is as high as that, the loop stops before
     /// time goes on, or tells `on_part`, which makes room.
     std::uint64_t room = kEndless;
-    /// The same for collisions since the window's start. Looked at a few times on the way to where the loop
-    /// goes.
+    /// With more collisions since the window's start, those at one instant aside, the loop is full as well.
+    /// It looks a few times on the way through an epoch.
     std::uint64_t most_collisions = kEndless;
     static constexpr std::uint64_t kEndless = std::numeric_limits<std::uint64_t>::max();
     /// Room for so many collisions a ball from now on, and for what few balls may have.
@@ -339,6 +343,7 @@ class EventLoop {
     bool full_ = false;
     std::uint64_t turns_ = 0;  // events of all balls
     std::uint64_t events_at_once_ = 0;
+    std::uint64_t instants_ = 0;  // at which something happened since the window's start
 };
 
 /// The loop whose kernel suits the scene: no acceleration, the same for all balls, or each its own. `bodies`

@@ -52,7 +52,7 @@ void EventLoopOf<A>::run_in_parts(double end, bool inclusive) {
     const double start = now_;
     for (int look = 1; look < kLooks && most_collisions != kEndless; ++look) {
         run_until(start + (end - start) * look / kLooks, false);
-        full_ = full_ || collisions_of_all > most_collisions;
+        full_ = full_ || in_turn(collisions_of_all) > most_collisions;
         if (full_) return;
     }
     run_until(end, inclusive);
@@ -73,6 +73,7 @@ void EventLoopOf<A>::run_until(double end, bool inclusive) {
             now_ = key;
             if (filters_ && sights_.are_worn(now_)) sight_all();
             events_at_once_ = 0;
+            ++instants_;
             simultaneous_ = false;
         } else if (++events_at_once_ > most_events_at_once()) {
             if (!is_patient) {

@@ -10,8 +10,9 @@ namespace {
 
 // What a window costs for each ball that it keeps, whatever the ball does, is one: some 0.1 us.
 constexpr double kLoadOfEvent = 5;
-// For each ball, of cutting the plane anew and of filling the domains' loops.
-constexpr double kLoadOfCut = 3;
+// For each ball, of filling the domains' loops anew, and of cutting the plane, for which all wait.
+constexpr double kLoadOfFilling = 2;
+constexpr double kLoadOfCutting = 1;
 // Where a thread has many domains, one may have so many times the mean of balls before the plane is cut anew.
 constexpr double kUneven = 1.5;
 constexpr int kWindowsBetweenCuts = 16;
@@ -94,12 +95,16 @@ void WindowedEngine::cut(std::span<BallInCell> balls, Span x, Span y, int parts,
     make_domain(balls, x, y);
 }
 
-/// Adds what the domains had to do in a window, if it was each domain's own.
+/// Whether each domain went through the last window on its own, with balls that can be told from others.
+bool WindowedEngine::knows_loads() const {
+    return std::ranges::all_of(
+        domains_, [](const DomainState& d) { return d.end.origins.size() == d.end.records.size(); });
+}
+
+/// Adds what the domains had to do in a window.
 void WindowedEngine::weigh_window() {
     ++since_cut_;
-    if (std::ranges::any_of(
-            domains_, [](const DomainState& d) { return d.end.origins.size() != d.end.records.size(); }))
-        return;
+    if (!knows_loads()) return;
     for (DomainState& d : domains_) d.load += double(d.end.records.size()) + kLoadOfEvent * double(d.events);
 }
 
@@ -114,29 +119,34 @@ bool WindowedEngine::is_uneven() const {
         most = std::max(most, share);
         all += share;
     }
-    const double mean = all / double(domains_.size());
-    if (loops_stay_)
-        return double(domains_.size()) * (most - mean) > patience_ * kLoadOfCut * double(bodies_.moving);
-    return since_cut_ >= kWindowsBetweenCuts && most > kUneven * mean;
+    const auto domains = double(domains_.size());
+    if (!loops_stay_) return since_cut_ >= kWindowsBetweenCuts && most * domains > kUneven * all;
+    const double price = (kLoadOfFilling + kLoadOfCutting * domains) * double(bodies_.moving);
+    return knows_loads() && most * domains - all > patience_ * price;
 }
 
-/// What each ball, in the order of domains and of their rosters at a window's end, has cost in the window:
-/// its collisions, and its share of the domain's other events.
+/// What each ball, in the order of domains and of their rosters at a window's end, counts where the plane is
+/// cut: one, or where each thread has one domain what it has cost in the window, its collisions and its share
+/// of the domain's other events.
 std::vector<float> WindowedEngine::loads() const {
     std::vector<float> loads;
     loads.reserve(bodies_.moving);
     for (const DomainState& d : domains_) {
-        const double balls = double(d.end.records.size());
-        const double others = double(d.events - std::min<std::uint64_t>(d.events, d.notes.size())) / balls;
+        const std::size_t first = loads.size();
+        loads.resize(first + d.end.records.size(), 1);
+        if (!loops_stay_) continue;
+        double others = double(d.events);
         for (std::size_t k = 0; k < d.end.records.size(); ++k) {
-            double collisions = 0;
-            if (!d.end.origins.empty()) {  // or nobody knows which ball it was
-                const Origin& origin = d.end.origins[k];
-                const Anchor& before = domains_[origin.domain].start.records[origin.index].anchor;
-                collisions = double(d.end.records[k].anchor.stamp - before.stamp) / 2;
-            }
-            loads.push_back(static_cast<float>(1 + kLoadOfEvent * (collisions + others)));
+            const Origin& origin = d.end.origins[k];
+            const Anchor& before = domains_[origin.domain].start.records[origin.index].anchor;
+            const double collisions =
+                double(d.end.records[k].anchor.stamp - before.stamp) / 2;  // of two balls
+            loads[first + k] += static_cast<float>(kLoadOfEvent * collisions);
+            others -= collisions;
         }
+        const double each = std::max(0.0, others) / double(std::max<std::size_t>(1, d.end.records.size()));
+        for (std::size_t k = first; k < loads.size(); ++k)
+            loads[k] += static_cast<float>(kLoadOfEvent * each);
     }
     return loads;
 }

@@ -219,6 +219,7 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     d.swap_tables(loop);
     d.count_notes(bodies_.physics.typical_virial);
     d.events = loop.events;
+    d.in_turn = loop.in_turn(d.notes.size());
     d.copied_collisions =
         loop.collisions_of_all - std::min<std::uint64_t>(loop.collisions_of_all, d.notes.size());
     d.copies.reserve(w.copies.size());

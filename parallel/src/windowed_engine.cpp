@@ -75,7 +75,7 @@ bool WindowedEngine::try_window(const Stop& window_end) {
         disagreeing_ += count;
         const bool gives_up = round == kMostRepairs || 4 * count > 3 * domains_.size() + 4 ||
                               std::ranges::any_of(domains_, &DomainState::is_full) ||
-                              collisions_of_window() > too_many();
+                              collisions_in_turn() > too_many();
         if (gives_up) {
             forget_loops();
             return false;
@@ -106,6 +106,7 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
         d.clear_outcome();
         d.end.clear();
         d.is_full = false;
+        d.in_turn = 0;
     }
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
         DomainState& d = domains_[w.origins[i].domain];
@@ -229,17 +230,16 @@ void WindowedEngine::next_window(const Time& wanted, const Time& horizon) {
     }
 }
 
-double WindowedEngine::collisions_of_window() const {
+double WindowedEngine::collisions_in_turn() const {
     double collisions = 0;
-    for (const DomainState& d : domains_) collisions += double(d.notes.size());
+    for (const DomainState& d : domains_) collisions += double(d.in_turn);
     return collisions;
 }
 
 /// Aims the next window at a number of collisions a ball that the halo stands.
 void WindowedEngine::tune(double length, bool agreed) {
-    const double collisions = collisions_of_window();
     if (!agreed) {
-        window_length_ = shortened(length, collisions);
+        window_length_ = shortened(length);
         return;
     }
     // One that has been cut short, as by the field's renewal, tells little.
@@ -247,19 +247,22 @@ void WindowedEngine::tune(double length, bool agreed) {
     const double retried = double(disagreeing_) / double(domains_.size());
     if (retried > 0) growth_ = kGrowth;
     target_ = std::min(kMostTarget, target_ * growth_ * std::pow(kShrinkage, retried));
+    double collisions = 0;
+    for (const DomainState& d : domains_) collisions += double(d.notes.size());
     const double wanted = collisions > 0 ? length * collisions_aimed_at() / collisions : 2 * length;
     window_length_ = std::clamp(wanted, length / 2, std::max(2 * length, window_length_));
 }
 
-/// The length of a window in place of one that had so many collisions and is given up: one that has as many
-/// as it should, or half.
-double WindowedEngine::shortened(double length, double collisions) {
+/// The length of a window in place of one that is given up: half, or so much that it has as many collisions
+/// as it should.
+double WindowedEngine::shortened(double length) {
     double wanted = length / 2;
     for (const DomainState& d : domains_) {
         if (!d.is_full) continue;
         const double came = bodies_.physics.clock.difference(d.full_at, window_start_);
-        wanted = std::min(wanted, came * collisions_aimed_at() / double(d.notes.size() + 1));
+        wanted = std::min(wanted, came * collisions_aimed_at() / double(d.in_turn + 1));
     }
+    const double collisions = collisions_in_turn();
     if (collisions > too_many()) return std::min(wanted, length * collisions_aimed_at() / collisions);
     if (std::ranges::none_of(domains_, &DomainState::is_full)) {
         target_ = std::max(kLeastTarget, target_ * kShrinkage);

@@ -66,6 +66,7 @@ class WindowedEngine final : public Engine {
     };
     using MakeDomain = std::function<void(std::span<const BallInCell>, Span x, Span y)>;
     void cut(std::span<BallInCell> balls, Span x, Span y, int parts, const MakeDomain& make_domain) const;
+    [[nodiscard]] bool knows_loads() const;
     void weigh_window();
     [[nodiscard]] bool is_uneven() const;
     [[nodiscard]] std::vector<float> loads() const;
@@ -123,10 +124,10 @@ class WindowedEngine final : public Engine {
                                const std::vector<std::uint32_t>& latest_of, const Time& t) const;
     [[nodiscard]] const BallRecord& record_at_start(const DomainState& d, std::size_t i) const;
     void tune(double length, bool agreed);
-    [[nodiscard]] double shortened(double length, double collisions);
+    [[nodiscard]] double shortened(double length);
     /// Collisions of all balls in a window that is neither too long nor too short.
     [[nodiscard]] double collisions_aimed_at() const { return target_ * double(bodies_.moving) / 2; }
-    [[nodiscard]] double collisions_of_window() const;
+    [[nodiscard]] double collisions_in_turn() const;
     /// A window with more collisions is too long, whatever else is wrong; chance may bring more where it aims
     /// at few.
     [[nodiscard]] double too_many() const { return 1000 + 1.5 * collisions_aimed_at(); }
@@ -156,7 +157,7 @@ class WindowedEngine final : public Engine {
     double growth_;
     double target_ = 1;       // collisions a ball in a window
     int since_cut_ = 0;       // windows
-    double patience_ = 1;     // with domains that are uneven, doubled by each cut that changes nothing
+    double patience_ = 1;     // with domains that are uneven, doubled by each cut in vain
     bool was_quiet_ = false;  // the last window had no event
 };
 
