@@ -292,6 +292,32 @@ TEST(DomainsOfUnevenLoad, AWindowTooLongDoesNotShortenTheOthers) {
     }
 }
 
+// Trains of touching balls meet, all at one instant: each ball of one hits each of the other. No window is
+// short enough for so many collisions, and none is given up for them.
+TEST(DomainsOfUnevenLoad, CollisionsAtOneInstantDoNotMakeAWindowTooLong) {
+    constexpr int kRows = 60;
+    constexpr int kTrain = 30;
+    Scene scene;
+    scene.domain = Domain{{{0, 0}, {80, 2 * kRows + 2}}, {Boundary::kWall, Boundary::kWall}, 1};
+    for (int row = 0; row < kRows; ++row) {
+        for (int k = 0; k < kTrain; ++k) {
+            for (const int way : {1, -1}) {
+                Ball b;
+                b.position = {40.0 - way * (2.5 + k), 2.0 + 2 * row};
+                b.velocity = {double(way), 0};
+                scene.balls.push_back(b);
+            }
+        }
+    }
+    const Outcome serial = run(scene, {.threads = 1, .domains = 1}, 3);
+    ASSERT_EQ(serial.balls, std::uint64_t{kRows} * kTrain * kTrain);
+    for (const int threads : {1, 2}) {
+        const Outcome outcome = run(scene, {.threads = threads, .domains = 2}, 3);
+        expect_equal(outcome, serial);
+        EXPECT_EQ(outcome.counts.window_retries, 0U) << threads << " threads";
+    }
+}
+
 // What is asked for once at a time is read from the engine alone, what is asked for again is kept; in the
 // midst of a window a ball is where an anchor has it that an event ahead has overwritten.
 TEST(DomainsOfAGas, ShowWhatOneLoopShowsHoweverOftenItIsAskedFor) {
