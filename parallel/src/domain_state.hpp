@@ -121,7 +121,7 @@ struct DomainState {
     std::size_t told = 0;     ///< so many of the notes lie in the past
     std::uint64_t events = 0;
     std::uint64_t copied_collisions = 0;
-    double load = 0;  ///< of all windows since the plane was cut, see WindowedEngine::weigh_window()
+    double load = 0;  ///< of the last windows since the plane was cut, see WindowedEngine::weigh_window()
 
     // For the comparison.
     Region region;

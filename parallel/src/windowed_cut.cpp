@@ -13,6 +13,10 @@ constexpr double kLoadOfEvent = 5;
 // For each ball, of filling the domains' loops anew, and of cutting the plane, for which all wait.
 constexpr double kLoadOfFilling = 2;
 constexpr double kLoadOfCutting = 1;
+// Loads are those of so many windows, the more of late the more. Cells are too coarse to even out less than
+// this.
+constexpr double kWindowsOfLoad = 64;
+constexpr double kUnevenLoad = 1.04;
 // Where a thread has many domains, one may have so many times the mean of balls before the plane is cut anew.
 constexpr double kUneven = 1.5;
 constexpr int kWindowsBetweenCuts = 16;
@@ -105,11 +109,14 @@ bool WindowedEngine::knows_loads() const {
 void WindowedEngine::weigh_window() {
     ++since_cut_;
     if (!knows_loads()) return;
-    for (DomainState& d : domains_) d.load += double(d.end.records.size()) + kLoadOfEvent * double(d.events);
+    for (DomainState& d : domains_) {
+        d.load *= 1 - 1 / kWindowsOfLoad;
+        d.load += double(d.end.records.size()) + kLoadOfEvent * double(d.events);
+    }
 }
 
 /// Whether it is worth while to cut the plane anew, a window having ended. Where each thread has one domain
-/// all wait for the busiest one, and what that has cost since the last cut pays for another one. Where a
+/// all wait for the busiest one, and what that has cost of late pays for another one. Where a
 /// thread has many they even out; then the balls count, which a domain's tables must hold.
 bool WindowedEngine::is_uneven() const {
     double most = 0;
@@ -122,7 +129,7 @@ bool WindowedEngine::is_uneven() const {
     const auto domains = double(domains_.size());
     if (!loops_stay_) return since_cut_ >= kWindowsBetweenCuts && most * domains > kUneven * all;
     const double price = (kLoadOfFilling + kLoadOfCutting * domains) * double(bodies_.moving);
-    return knows_loads() && most * domains - all > patience_ * price;
+    return knows_loads() && most * domains > kUnevenLoad * all && most * domains - all > patience_ * price;
 }
 
 /// What each ball, in the order of domains and of their rosters at a window's end, counts where the plane is
