@@ -105,10 +105,7 @@ void print(const World& world, const Price& price, double undisturbed) {
 }
 
 void measure(double count, double packing, double seconds, int threads, int domains) {
-    WorldOptions options;
-    options.threads = threads;
-    options.domains = domains;
-    World world(scene_of(plain::make_gas(count, packing)), options);
+    World world(scene_of(plain::make_gas(count, packing)), {.threads = threads, .domains = domains});
     const auto balls = static_cast<double>(world.ball_count());
     // One collision a ball, and at least 20,000 collisions; and so many looks at the clock meanwhile.
     constexpr int kLooks = 64;
@@ -138,10 +135,7 @@ void measure(double count, double packing, double seconds, int threads, int doma
 /// A scene from its start to `until`.
 void measure_scene(const char* path, double until, int threads, int domains) {
     if (!(until > 0)) throw std::invalid_argument("UNTIL is a time above 0");
-    WorldOptions options;
-    options.threads = threads;
-    options.domains = domains;
-    World world(read_scene(path), options);
+    World world(read_scene(path), {.threads = threads, .domains = domains});
     const double worked = world.working_seconds();
     Slices slices(world);
     world.advance_to(until);

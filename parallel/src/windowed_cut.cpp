@@ -102,7 +102,7 @@ void WindowedEngine::cut(std::span<BallInCell> balls, Span x, Span y, int parts,
 /// Whether each domain went through the last window on its own, with balls that can be told from others.
 bool WindowedEngine::knows_loads() const {
     return std::ranges::all_of(
-        domains_, [](const DomainState& d) { return d.end.origins.size() == d.end.records.size(); });
+        domains_, [](const DomainState& d) { return d.start.origins.size() == d.start.records.size(); });
 }
 
 /// Adds what the domains had to do in a window.
@@ -111,7 +111,7 @@ void WindowedEngine::weigh_window() {
     if (!knows_loads()) return;
     for (DomainState& d : domains_) {
         d.load *= 1 - 1 / kWindowsOfLoad;
-        d.load += double(d.end.records.size()) + kLoadOfEvent * double(d.events);
+        d.load += double(d.start.records.size()) + kLoadOfEvent * double(d.events);
     }
 }
 
@@ -122,7 +122,7 @@ bool WindowedEngine::is_uneven() const {
     double most = 0;
     double all = 0;
     for (const DomainState& d : domains_) {
-        const double share = loops_stay_ ? d.load : double(d.end.records.size());
+        const double share = loops_stay_ ? d.load : double(d.start.records.size());
         most = std::max(most, share);
         all += share;
     }
@@ -132,26 +132,27 @@ bool WindowedEngine::is_uneven() const {
     return knows_loads() && most * domains > kUnevenLoad * all && most * domains - all > patience_ * price;
 }
 
-/// What each ball, in the order of domains and of their rosters at a window's end, counts where the plane is
-/// cut: one, or where each thread has one domain what it has cost in the window, its collisions and its share
-/// of the domain's other events.
+/// What each ball, in the order of domains and of their rosters when a window has ended, counts where the
+/// plane is cut: one, or where each thread has one domain what it has cost in the window, its collisions and
+/// its share of the domain's other events.
 std::vector<float> WindowedEngine::loads() const {
     std::vector<float> loads;
     loads.reserve(bodies_.moving);
     for (const DomainState& d : domains_) {
         const std::size_t first = loads.size();
-        loads.resize(first + d.end.records.size(), 1);
+        loads.resize(first + d.start.records.size(), 1);
         if (!loops_stay_) continue;
         double others = double(d.events);
-        for (std::size_t k = 0; k < d.end.records.size(); ++k) {
-            const Origin& origin = d.end.origins[k];
-            const Anchor& before = domains_[origin.domain].start.records[origin.index].anchor;
+        for (std::size_t k = 0; k < d.start.records.size(); ++k) {
+            const Origin& origin = d.start.origins[k];
+            // What the window has started from lies where the next one will end.
+            const Anchor& before = domains_[origin.domain].end.records[origin.index].anchor;
             const double collisions =
-                double(d.end.records[k].anchor.stamp - before.stamp) / 2;  // of two balls
+                double(d.start.records[k].anchor.stamp - before.stamp) / 2;  // of two balls
             loads[first + k] += static_cast<float>(kLoadOfEvent * collisions);
             others -= collisions;
         }
-        const double each = std::max(0.0, others) / double(std::max<std::size_t>(1, d.end.records.size()));
+        const double each = std::max(0.0, others) / double(std::max<std::size_t>(1, d.start.records.size()));
         for (std::size_t k = first; k < loads.size(); ++k)
             loads[k] += static_cast<float>(kLoadOfEvent * each);
     }
@@ -160,7 +161,8 @@ std::vector<float> WindowedEngine::loads() const {
 
 /// Cuts the plane in domains of about the same load, those of the records at a window's start. Who has
 /// another rectangle of cells than before is sent its balls when it fills.
-void WindowedEngine::cut_anew(const std::vector<float>& loads) {
+void WindowedEngine::cut_anew() {
+    const std::vector<float> loads = this->loads();
     std::vector<BallInCell> balls;
     balls.reserve(loads.size());
     for (const DomainState& d : domains_)

@@ -171,9 +171,6 @@ void WindowedEngine::predict_anew(bool renews_field) {
 /// The end of the window becomes the start of the next one.
 void WindowedEngine::commit() {
     if (!in_window_) return;
-    weigh_window();
-    const bool cuts = is_uneven();
-    const std::vector<float> loads = cuts ? this->loads() : std::vector<float>{};
     was_quiet_ = std::ranges::all_of(domains_, [](const DomainState& d) { return d.events == 0; });
     for (DomainState& d : domains_) {
         std::swap(d.start, d.end);
@@ -183,7 +180,8 @@ void WindowedEngine::commit() {
     }
     window_start_ = window_end_.time;
     in_window_ = false;
-    if (cuts) cut_anew(loads);
+    weigh_window();
+    if (is_uneven()) cut_anew();
 }
 
 /// Between windows, epochs in which nothing happens are left out.

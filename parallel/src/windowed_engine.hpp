@@ -70,7 +70,7 @@ class WindowedEngine final : public Engine {
     void weigh_window();
     [[nodiscard]] bool is_uneven() const;
     [[nodiscard]] std::vector<float> loads() const;
-    void cut_anew(const std::vector<float>& loads);
+    void cut_anew();
     void split_anew();
     void index(const DomainState& d, Roster& roster) const;
     class Index;
