@@ -107,18 +107,11 @@ struct DomainState {
     std::vector<BallOutcome> outcomes;  ///< of the balls of `start`, written by their owners
 
     // What came of the window.
-    std::vector<OverwrittenAnchor> overwritten;
+    AsideTable<OverwrittenAnchor> overwritten;
     std::vector<std::uint32_t> last_overwritten;  ///< one a ball of `end`
-    std::vector<CollisionNote> notes;
+    AsideTable<NotePart> notes;
     std::vector<Collision> collisions;  ///< one a note where somebody listens
-    /// What some notes, one after the other, come to, and when the last of them was.
-    struct Part {
-        Tally tally;
-        Time end;
-    };
-    static constexpr std::size_t kNotesOfPart = 32;
-    std::vector<Part> parts;  ///< of so many notes each
-    std::size_t told = 0;     ///< so many of the notes lie in the past
+    std::size_t told = 0;               ///< so many of the notes lie in the past
     std::uint64_t events = 0;
     std::uint64_t copied_collisions = 0;
     double load = 0;  ///< of the last windows since the plane was cut, see WindowedEngine::weigh_window()
@@ -157,31 +150,29 @@ struct DomainState {
         std::swap(notes, loop.notes);
         std::swap(collisions, loop.collisions);
     }
-    /// The collisions that count here are those that a loop has noted.
-    void count_notes(double typical_virial) {
-        for (std::size_t k = 0; k < notes.size(); ++k) {
-            if (k % kNotesOfPart == 0) parts.emplace_back().tally.virial.set_scale(typical_virial);
-            parts.back().tally.count(notes[k]);
-            parts.back().end = notes[k].time;
-        }
+    [[nodiscard]] std::size_t note_count() const {
+        return notes.size() == 0 ? 0 : NotePart::kMost * (notes.size() - 1) + notes[notes.size() - 1].count;
     }
-    /// Adds what has happened since it was last told, to `until`; whole parts, for the notes may lie in
-    /// another core's cache.
+    [[nodiscard]] const CollisionNote& note(std::size_t k) const {
+        return notes[k / NotePart::kMost].notes[k % NotePart::kMost];
+    }
+    /// Adds what has happened since it was last told, to `until`; whole parts, for notes lie in no cache.
     void tell(const Time& until, Tally& sum) {
-        while (told < notes.size()) {
-            const Part& part = parts[told / kNotesOfPart];
-            if (told % kNotesOfPart == 0 && part.end <= until) {
+        const std::size_t count = note_count();
+        while (told < count) {
+            const NotePart& part = notes[told / NotePart::kMost];
+            if (told % NotePart::kMost == 0 && part.end <= until) {
                 sum.count(part.tally);
-                told = std::min(told + kNotesOfPart, notes.size());
-            } else if (notes[told].time <= until) {
-                sum.count(notes[told++]);
+                told += part.count;
+            } else if (note(told).time <= until) {
+                sum.count(note(told++));
             } else {
                 return;
             }
         }
     }
     void forget_notes() {
-        empty(notes, collisions, parts);
+        empty(notes, collisions);
         told = 0;
     }
     /// Forgets what the last window came to, but for `end`.

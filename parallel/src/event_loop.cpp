@@ -62,6 +62,7 @@ void EventLoop::forget_window() {
     simultaneous_ = failed_ = full_ = false;
     turns_ = events_at_once_ = instants_ = 0;
     events = collisions_of_all = 0;
+    part_.count = 0;
     empty(notes, collisions, overwritten, visits, meetings);
     if (!keeps_window) return;
     if (touched_at_start_.empty()) touched_at_start_ = marks_touched_at_start(region_);

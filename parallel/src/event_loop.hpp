@@ -18,6 +18,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -36,6 +37,7 @@
 #include "bodies.hpp"
 #include "executor.hpp"
 #include "ordered_sum.hpp"
+#include "put_aside.hpp"
 #include "region.hpp"
 #include "sights.hpp"
 
@@ -75,6 +77,15 @@ struct Tally {
     }
 };
 
+/// Some notes, one after the other, and what they come to.
+struct alignas(64) NotePart {
+    static constexpr std::uint32_t kMost = 32;
+    std::uint32_t count = 0;  ///< kMost in all parts but the last
+    Time end;                 ///< of the last note
+    Tally tally;
+    std::array<CollisionNote, kMost> notes;
+};
+
 /// What a collision does to a ball.
 struct Hit {
     Vec2 normal;            ///< unit vector towards the ball
@@ -89,7 +100,7 @@ struct Hit {
 
 /// What an event has overwritten of ball `ball`'s anchor, and the index of what was before it: kNowhere if
 /// nothing was, kAtStart if the ball's anchor at the window's start, which is kept elsewhere. One cache line.
-struct OverwrittenAnchor {
+struct alignas(64) OverwrittenAnchor {
     double x, y, vx, vy;
     Time time;
     Periods periods;
@@ -99,6 +110,7 @@ struct OverwrittenAnchor {
 static_assert(sizeof(OverwrittenAnchor) == 64);
 inline constexpr std::uint32_t kAtStart = kNowhere - 1;
 /// Which overwritten anchors are kept: the first one of each ball is the one that a window started with.
+/// Where it is not kept the others are put aside: call finish_aside() before another thread reads them.
 enum class Keeps : std::uint8_t { kNone, kAllButFirst, kAll };
 /// As far as the way from there on depends on it.
 [[nodiscard]] inline Anchor anchor_of(const OverwrittenAnchor& o) {
@@ -218,7 +230,7 @@ class EventLoop {
     virtual void audit(std::vector<Violation>& found) const = 0;
 
     bool listens = false;      ///< whether collisions are kept in full
-    bool keeps_notes = false;  ///< whether notes are kept rather than handed to `on_note`
+    bool keeps_notes = false;  ///< whether notes go to `notes` rather than to `on_note`
     /// Whether a ball without room to move is an error only after very many events at one instant; else the
     /// loop fails after a few.
     bool is_patient = true;
@@ -239,11 +251,11 @@ class EventLoop {
     /// call forget_anchors() then.
     std::function<void(const Time&)> on_part;
     std::function<void(const CollisionNote&, const Collision*)>
-        on_note;                                 ///< without the second unless it listens
-    std::vector<CollisionNote> notes;            ///< of collisions that count here, in order
-    std::vector<Collision> collisions;           ///< the same in full, where the loop listens
-    std::vector<OverwrittenAnchor> overwritten;  ///< of owned balls
-    std::vector<Visit> visits;                   ///< of owned balls
+        on_note;                                ///< without the second unless it listens
+    AsideTable<NotePart> notes;                 ///< of collisions that count here, in order: put aside
+    std::vector<Collision> collisions;          ///< the same in full, where the loop listens
+    AsideTable<OverwrittenAnchor> overwritten;  ///< of owned balls
+    std::vector<Visit> visits;                  ///< of owned balls
     std::vector<Meeting> meetings;
     std::vector<std::uint8_t>
         touched;  ///< one a mark of the region: whether a ball of its own was in the cell or beside
@@ -341,6 +353,7 @@ class EventLoop {
     bool simultaneous_ = false;  // several events share the present instant
     bool failed_ = false;
     bool full_ = false;
+    NotePart part_;            // that comes to `notes` or to `on_note` next
     std::uint64_t turns_ = 0;  // events of all balls
     std::uint64_t events_at_once_ = 0;
     std::uint64_t instants_ = 0;  // at which something happened since the window's start

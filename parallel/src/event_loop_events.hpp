@@ -23,7 +23,7 @@ template <Acceleration A>
 void EventLoopOf<A>::advance_to(const Time& end, bool inclusive) {
     while (epoch_ < end.epoch) {
         run_in_parts(clock_.epoch_length(), false);
-        if (full_) return;
+        if (full_) return pass_on_notes();
         const double epochs = std::floor(queue_.first_key() / clock_.epoch_length());
         start_next_epoch(epochs < double(end.epoch - epoch_)
                              ? epoch_ + std::max(std::int64_t{1}, static_cast<std::int64_t>(epochs))
@@ -145,19 +145,27 @@ std::uint32_t EventLoopOf<A>::first_of_ties() {
     return ties_.front().local;
 }
 
-/// Hands the notes on, in batches, where they are not kept.
+/// Hands the notes on, a part at a time.
 template <Acceleration A>
 void EventLoopOf<A>::pass_on_notes() {
-    if (keeps_notes) return;
+    if (part_.count == 0) return;
+    const std::uint32_t count = part_.count;
+    if (keeps_notes) {
+        part_.tally = {};
+        part_.tally.virial.set_scale(bodies_.physics.typical_virial);
+        for (std::uint32_t k = 0; k < count; ++k) part_.tally.count(part_.notes[k]);
+        part_.end = part_.notes[count - 1].time;
+        notes.push_aside(part_);
+        part_.count = 0;
+        return;
+    }
+    part_.count = 0;
     // Taken out first: whoever is told may ask for an end of it.
-    std::vector<CollisionNote> batch = std::exchange(notes, {});
-    std::vector<Collision> batch_in_full = std::exchange(collisions, {});
-    const bool is_full = batch_in_full.size() == batch.size();
-    for (std::size_t k = 0; k < batch.size(); ++k) on_note(batch[k], is_full ? &batch_in_full[k] : nullptr);
-    batch.clear();
-    batch_in_full.clear();
-    notes = std::move(batch);
-    collisions = std::move(batch_in_full);
+    std::vector<Collision> in_full = std::exchange(collisions, {});
+    const bool is_full = in_full.size() == count;
+    for (std::uint32_t k = 0; k < count; ++k) on_note(part_.notes[k], is_full ? &in_full[k] : nullptr);
+    in_full.clear();
+    collisions = std::move(in_full);
 }
 
 /// Many balls may meet at one instant, in a row of touching balls (N / 2)^2 times; what goes on has no end.
@@ -255,7 +263,11 @@ void EventLoopOf<A>::keep_anchor(std::uint32_t i) {
         return;
     }
     const Anchor& a = records_[i].anchor;
-    overwritten.push_back({a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, last, i});
+    const OverwrittenAnchor o{a.x, a.y, a.vx, a.vy, a.time, records_[i].periods, last, i};
+    if (keeps_anchors == Keeps::kAllButFirst)
+        overwritten.push_aside(o);  // read where somebody looks into the window
+    else
+        overwritten.push_back(o);
     last = static_cast<std::uint32_t>(overwritten.size() - 1);
 }
 
@@ -466,7 +478,7 @@ void EventLoopOf<A>::remember(std::uint32_t i, const Time& t, std::uint32_t part
 template <Acceleration A>
 void EventLoopOf<A>::note(const Time& t, std::uint32_t i, std::uint32_t partner, std::uint32_t partner_stamp,
                           const Hit& hit) {
-    CollisionNote& n = notes.emplace_back();
+    CollisionNote& n = part_.notes[part_.count];
     n.time = t;
     n.lower = records_[i].id();
     n.higher = partner;
@@ -478,8 +490,7 @@ void EventLoopOf<A>::note(const Time& t, std::uint32_t i, std::uint32_t partner,
         collisions.push_back(collision_of(bodies_, clock_.to_seconds(t), records_[i].id(), partner,
                                           {records_[i].anchor.x, records_[i].anchor.y}, hit));
     }
-    constexpr std::size_t kBatch = 1024;
-    if (!keeps_notes && notes.size() >= kBatch) pass_on_notes();
+    if (++part_.count == NotePart::kMost) pass_on_notes();
 }
 
 }  // namespace carom

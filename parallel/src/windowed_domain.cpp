@@ -217,11 +217,10 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     const auto self = static_cast<std::uint32_t>(&d - domains_.data());
     d.clear_outcome();
     d.swap_tables(loop);
-    d.count_notes(bodies_.physics.typical_virial);
     d.events = loop.events;
-    d.in_turn = loop.in_turn(d.notes.size());
-    d.copied_collisions =
-        loop.collisions_of_all - std::min<std::uint64_t>(loop.collisions_of_all, d.notes.size());
+    const std::uint64_t collisions = d.note_count();
+    d.in_turn = loop.in_turn(collisions);
+    d.copied_collisions = loop.collisions_of_all - std::min(loop.collisions_of_all, collisions);
     d.copies.reserve(w.copies.size());
     std::vector<std::uint32_t>& copy_of = w.places;
     copy_of.assign(loop.size(), kNowhere);

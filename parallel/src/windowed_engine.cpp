@@ -129,7 +129,6 @@ Stop WindowedEngine::run_together(const Stop& window_end, bool may_end_early) {
     }
     for (DomainState& d : domains_) index(d, d.end);
     domains_.front().swap_notes(loop);
-    domains_.front().count_notes(bodies_.physics.typical_virial);
     domains_.front().events = loop.events;
     return loop.is_full() ? Stop{loop.time_now()} : window_end;
 }
@@ -246,7 +245,7 @@ void WindowedEngine::tune(double length, bool agreed) {
     if (retried > 0) growth_ = kGrowth;
     target_ = std::min(kMostTarget, target_ * growth_ * std::pow(kShrinkage, retried));
     double collisions = 0;
-    for (const DomainState& d : domains_) collisions += double(d.notes.size());
+    for (const DomainState& d : domains_) collisions += double(d.note_count());
     const double wanted = collisions > 0 ? length * collisions_aimed_at() / collisions : 2 * length;
     window_length_ = std::clamp(wanted, length / 2, std::max(2 * length, window_length_));
 }

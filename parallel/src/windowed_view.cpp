@@ -24,7 +24,7 @@ void WindowedEngine::tell_until(const Stop& end) {
         const std::size_t first = d.told;
         d.tell(end.time, tally_);
         for (std::size_t k = first; listener_ && k < d.told; ++k)
-            told.push_back({&d.notes[k], &d.collisions[k]});
+            told.push_back({&d.note(k), &d.collisions[k]});
     }
     std::ranges::sort(told, {}, [](const Told& t) { return t.note->time; });
     for (auto first = told.begin(); first != told.end();) {
