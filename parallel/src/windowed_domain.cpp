@@ -279,15 +279,20 @@ void WindowedEngine::compare(DomainState& d) const {
         if (const CellCoordinates& cell = holder.start.cells[copy.origin.index]; has_touched(cell))
             see(copy.origin, cell);
     }
+    std::vector<std::vector<std::uint8_t>> followed(domains_.size());  // by the balls' origins
+    for (std::size_t k = 0; k < d.copies.size(); ++k) {
+        const Origin& origin = d.copies[k].origin;
+        std::vector<std::uint8_t>& of_holder = followed[origin.domain];
+        if (of_holder.empty()) of_holder.resize(domains_[origin.domain].outcomes.size());
+        of_holder[origin.index] = is_right[k];
+    }
     for (const DomainState& other : domains_) {
         if (&other == &d || !d.region.meets(other.region)) continue;
         const std::vector<OwnVisit> widely = d.halo > halo_ ? all_visits(other) : std::vector<OwnVisit>{};
         for (const OwnVisit& v : d.halo > halo_ ? widely : other.visits_near_border) {
             if (!has_touched(v.cell)) continue;
-            const auto copy = std::ranges::lower_bound(d.copies, v.origin, {}, &CopyOutcome::origin);
-            if (copy == d.copies.end() || copy->origin != v.origin ||
-                !is_right[static_cast<std::size_t>(copy - d.copies.begin())])
-                see(v.origin, v.cell);
+            const std::vector<std::uint8_t>& of_holder = followed[v.origin.domain];
+            if (of_holder.empty() || of_holder[v.origin.index] == 0) see(v.origin, v.cell);
         }
     }
     for (const Meeting& m : d.meetings) {
@@ -317,10 +322,17 @@ void WindowedEngine::forget_predictions(DomainState& d, const std::vector<std::u
         d.region.for_each_mark_beside(d.region.framed(v.cell), [&is_beside](std::int32_t mark) {
             if (mark >= 0) is_beside[static_cast<std::size_t>(mark)] = 1;
         });
-    for (std::uint32_t k = 0; k < d.end.cells.size(); ++k)
-        if (const std::int32_t mark = d.region.mark(d.region.framed(d.end.cells[k]));
-            mark < 0 || is_beside[static_cast<std::size_t>(mark)])
-            forget(k);
+    const auto forget_if_beside = [&](std::uint32_t k) {
+        const std::int32_t mark = d.region.mark(d.region.framed(d.end.cells[k]));
+        if (mark < 0 || is_beside[static_cast<std::size_t>(mark)]) forget(k);
+    };
+    const bool some_lie_deep = std::ranges::any_of(d.unseen, [&](const UnseenVisit& v) {
+        return d.region.is_deep_inside(d.region.framed(v.cell), halo_ - 1);
+    });
+    if (some_lie_deep)
+        for (std::uint32_t k = 0; k < d.end.cells.size(); ++k) forget_if_beside(k);
+    else
+        std::ranges::for_each(d.end.near_border, forget_if_beside);
 }
 
 /// Whether two cells, folded into the box on periodic axes, are the same or neighbours.
