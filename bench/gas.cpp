@@ -1,12 +1,17 @@
 // carom_gas: the engine's speed on the baseline's gas, in one line of the baseline's form; or on a scene.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
 #include <exception>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -36,13 +41,20 @@ Scene scene_of(const plain::Gas& gas) {
 /// The speed in slices of time, of which some go undisturbed where a machine has other guests.
 class Slices {
  public:
-    explicit Slices(const World& world) : world_(world) {}
+    explicit Slices(const World& world) : world_(&world) {}
 
+    /// Seconds since the start, without pauses.
     [[nodiscard]] double elapsed() const { return since(start_); }
+    void pause() { paused_ = Clock::now(); }
+    void go_on() {
+        const Clock::duration pause = Clock::now() - paused_;
+        start_ += pause;
+        begun_ += pause;
+    }
     /// To be called often. Where there are windows a slice is some of them and ends with the first look into
     /// one, so that it has the time and, but for one window more or less, the collisions of whole ones.
     void look() {
-        const Counts counts = world_.counts();
+        const Counts counts = world_->counts();
         const bool is_new = std::exchange(windows_, counts.windows) != counts.windows;
         if (counts.windows != 0 && (!is_new || ++windows_of_slice_ < kFewestWindows)) return;
         if (since(begun_) < kSlice) return;
@@ -67,8 +79,8 @@ class Slices {
         return std::chrono::duration<double>(Clock::now() - t).count();
     }
 
-    const World& world_;
-    Clock::time_point start_ = Clock::now(), begun_ = start_;
+    const World* world_;
+    Clock::time_point start_ = Clock::now(), begun_ = start_, paused_ = start_;
     std::uint64_t windows_ = 0, collisions_ = 0;
     int windows_of_slice_ = 0;
     bool is_begun_ = false;
@@ -104,32 +116,119 @@ void print(const World& world, const Price& price, double undisturbed) {
                 100 * price.worked, undisturbed);
 }
 
-void measure(double count, double packing, double seconds, int threads, int domains) {
-    World world(scene_of(plain::make_gas(count, packing)), {.threads = threads, .domains = domains});
-    const auto balls = static_cast<double>(world.ball_count());
-    // One collision a ball, and at least 20,000 collisions; and so many looks at the clock meanwhile.
-    constexpr int kLooks = 64;
-    const double stretch = mean_free_time(packing) * std::max(1.0, 40000 / balls);
-    while (static_cast<double>(world.counts().ball_collisions) < 3 * balls) world.step(stretch);
+/// So many threads for each of so many worlds side by side, each cut in so many domains.
+struct Team {
+    int threads = 0;
+    int worlds = 1;
+    int domains = 0;
+};
 
-    const Counts counts_0 = world.counts();
-    const double worked_0 = world.working_seconds();
-    const double energy = world.energy(), time_0 = world.time(), virial_0 = world.virial();
-    Slices slices(world);
-    do {
-        for (int k = 0; k < kLooks; ++k) {
-            world.step(stretch / kLooks);
-            slices.look();
+/// THREADS, THREADSxWORLDS, THREADS/DOMAINS or all of it.
+Team read_team(const std::string& text, int domains) {
+    Team team{.threads = std::atoi(text.c_str()), .domains = domains};
+    const auto read = [&text](char mark, int& value) {
+        if (const std::size_t at = text.find(mark); at != std::string::npos)
+            value = std::atoi(text.c_str() + at + 1);
+    };
+    read('x', team.worlds);
+    read('/', team.domains);
+    return team;
+}
+
+// A turn has so many collisions at least, for some percent of it go to fetching what a cache has lost.
+constexpr double kCollisionsOfTurn = 80000;
+
+/// A world and what its turns have come to; or more of the same side by side, which share nothing.
+class Runner {
+ public:
+    Runner(const plain::Gas& gas, const Team& team)
+        : world_(scene_of(gas), options_of(team)), slices_(world_) {
+        for (int k = 1; k < team.worlds; ++k) others_.emplace_back(scene_of(gas), options_of(team));
+    }
+
+    void warm_up(double stretch) {
+        while (static_cast<double>(world_.counts().ball_collisions) < 3.0 * balls()) {
+            world_.step(stretch);
+            for (World& other : others_) other.step(stretch);
         }
-    } while (slices.elapsed() < seconds);
+        counts_ = world_.counts();
+        worked_ = world_.working_seconds();
+        energy_ = world_.energy();
+        time_ = world_.time();
+        virial_ = world_.virial();
+        slices_ = Slices(world_);
+        slices_.pause();
+    }
+    void take_turn(double stretch, int stretches) {
+        constexpr int kLooks = 8;  // at the clock, in a stretch
+        slices_.go_on();
+        {
+            std::vector<std::jthread> threads;
+            for (World& other : others_)
+                threads.emplace_back([&other, stretch, stretches] {
+                    for (int k = 0; k < kLooks * stretches; ++k) other.step(stretch / kLooks);
+                });
+            for (int k = 0; k < kLooks * stretches; ++k) {
+                world_.step(stretch / kLooks);
+                slices_.look();
+            }
+        }
+        slices_.pause();
+        elapsed_ = slices_.elapsed();
+    }
+    [[nodiscard]] double elapsed() const { return elapsed_; }
+    [[nodiscard]] std::uint64_t state_hash() const { return world_.state_hash(); }
 
-    const Price price = price_since(world, counts_0, worked_0, slices.elapsed());
-    const double kinetic = energy / (balls - 1) * balls;  // N kT: the momentum is fixed at zero
-    std::printf("discs=%.0f packing=%.2f collisions_per_second=%.4g events=%.2f Z=%.4f energy_change=%.1e ",
-                balls, packing, price.speed, price.events,
-                1 + (world.virial() - virial_0) / (2 * kinetic * (world.time() - time_0)),
-                world.energy() / energy - 1);
-    print(world, price, slices.undisturbed());
+    void print(double packing) {
+        Price price = price_since(world_, counts_, worked_, elapsed_);
+        price.speed *= 1.0 + static_cast<double>(others_.size());
+        const double kinetic = energy_ / (balls() - 1) * balls();  // N kT: the momentum is fixed at zero
+        std::printf(
+            "discs=%.0f packing=%.2f collisions_per_second=%.4g events=%.2f Z=%.4f energy_change=%.1e ",
+            balls(), packing, price.speed, price.events,
+            1 + (world_.virial() - virial_) / (2 * kinetic * (world_.time() - time_)),
+            world_.energy() / energy_ - 1);
+        std::printf("worlds=%zu ", 1 + others_.size());
+        bench::print(world_, price, slices_.undisturbed());
+    }
+
+ private:
+    static WorldOptions options_of(const Team& team) {
+        return {.threads = team.threads, .domains = team.domains};
+    }
+    [[nodiscard]] double balls() const { return static_cast<double>(world_.ball_count()); }
+
+    World world_;
+    std::deque<World> others_;
+    Slices slices_;
+    Counts counts_;
+    double worked_ = 0, energy_ = 0, time_ = 0, virial_ = 0, elapsed_ = 0;
+};
+
+/// Teams in turns that are the same stretches of the same gas, until the first has taken `seconds`: what
+/// disturbs the machine for longer than a turn disturbs all.
+void measure(double count, double packing, double seconds, const std::vector<Team>& teams) {
+    const plain::Gas gas = plain::make_gas(count, packing);
+    const auto balls = static_cast<double>(gas.positions.size());
+    // One collision a ball, and at least 20,000 collisions.
+    const double collisions = std::max(balls / 2, 20000.0);
+    const double stretch = mean_free_time(packing) * collisions / (balls / 2);
+    std::deque<Runner> runners;  // which do not move
+    std::vector<Runner*> order;
+    for (const Team& team : teams) {
+        order.push_back(&runners.emplace_back(gas, team));
+        order.back()->warm_up(stretch);
+    }
+    const int stretches = teams.size() == 1 ? 1 : static_cast<int>(std::ceil(kCollisionsOfTurn / collisions));
+    do {
+        for (Runner* runner : order) runner->take_turn(stretch, stretches);
+        std::ranges::reverse(order);
+    } while (runners.front().elapsed() < seconds);
+    for (Runner& runner : runners) {
+        if (runner.state_hash() != runners.front().state_hash())
+            throw std::runtime_error("the state depends on the threads");
+        runner.print(packing);
+    }
 }
 
 /// A scene from its start to `until`.
@@ -151,7 +250,7 @@ void measure_scene(const char* path, double until, int threads, int domains) {
 int main(int argc, char** argv) {
     if (argc < 3 || argc > 6) {
         std::fputs(
-            "usage: carom_gas COUNT PACKING [SECONDS [THREADS [DOMAINS]]]\n"
+            "usage: carom_gas COUNT PACKING [SECONDS [THREADS[xWORLDS][/DOMAINS],... [DOMAINS]]]\n"
             "       carom_gas SCENE.json UNTIL [THREADS [DOMAINS]]\n",
             stderr);
         return 2;
@@ -160,13 +259,17 @@ int main(int argc, char** argv) {
         return argc > k ? std::atof(argv[k]) : otherwise;
     };
     const bool is_scene = std::string_view(argv[1]).ends_with(".json");
+    std::vector<carom::bench::Team> teams;
+    std::istringstream list(argc > 4 ? argv[4] : "0");
+    for (std::string part; std::getline(list, part, ',');) {
+        teams.push_back(carom::bench::read_team(part, static_cast<int>(number(5, 0))));
+    }
     try {
         if (is_scene)
             carom::bench::measure_scene(argv[1], number(2, 0), static_cast<int>(number(3, 0)),
                                         static_cast<int>(number(4, 0)));
         else
-            carom::bench::measure(number(1, 0), number(2, 0), number(3, 3), static_cast<int>(number(4, 0)),
-                                  static_cast<int>(number(5, 0)));
+            carom::bench::measure(number(1, 0), number(2, 0), number(3, 3), teams);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "carom_gas: %s\n", error.what());
         return 1;
