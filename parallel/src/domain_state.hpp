@@ -74,12 +74,20 @@ struct Workshop {
     std::vector<Origin> origins;        ///< one a place in the loop
 
     // While it is filled.
-    std::vector<BallMessage> message;
+    std::vector<BallMessage> message;              ///< of a few balls, one after the other
     std::vector<std::uint32_t> residents;          ///< where the domain's records are in the loop
     std::vector<std::vector<std::uint32_t>> here;  ///< where copies are, by their last origins
-    std::vector<std::uint32_t> places;             ///< of the message's balls
-    std::vector<std::uint32_t> unknown;            ///< whose next event is to be looked for
-    std::thread::id thread;                        ///< that used it last
+    /// A ball that a message brought.
+    struct Arrival {
+        Origin origin;
+        std::uint32_t place = 0;  ///< in the loop; kNowhere where it was not there
+        bool is_own = false;
+    };
+    std::vector<Arrival> arrivals;
+    std::vector<BallMessage> newcomers;  ///< those that were not there
+    std::vector<std::uint32_t> unknown;  ///< whose next event is to be looked for
+    std::vector<std::uint32_t> copy_of;  ///< when it has gone: the copies' numbers, by their places
+    std::thread::id thread;              ///< that used it last
 };
 
 /// The balls that a domain has simulated last, at the end of a window, wherever they are.

@@ -11,25 +11,32 @@ namespace {
 
 // A window aims at a few collisions a ball; there is no room for more than so many.
 constexpr std::uint64_t kMostCollisionsOfBall = 32;
+// A message of more would lie in no cache when it is read.
+constexpr std::size_t kBallsOfMessage = 64;
 const Time& end_at(const std::vector<Time>& ends, std::int32_t depth) {
     return ends[std::min(static_cast<std::size_t>(depth), ends.size() - 1)];
 }
 
 }  // namespace
 
-/// Appends to a message what a domain holds for the region of another one: plain data, all that the receiver
-/// needs.
+/// Sends what a domain holds for the region of another one: plain data, all that the receiver needs, in
+/// messages that deliver() has done with when it returns.
+template <class F>
 void WindowedEngine::pack(std::uint32_t from, const Region& region, std::int32_t halo,
-                          std::vector<BallMessage>& message) const {
+                          std::vector<BallMessage>& message, F&& deliver) const {
     const Roster& source = domains_[from].start;
     if (!region.x.meets(source.cells_x) || !region.y.meets(source.cells_y)) return;
     const BallExtra none;
+    message.clear();
     const auto pack_one = [&](std::uint32_t k) {
         const CellCoordinates& c = source.cells[k];
         if (!region.x.covers(c.x) || !region.y.covers(c.y)) return;
         message.emplace_back(source.records[k], source.extras.empty() ? none : source.extras[k],
                              Origin{from, k}, source.origins.empty() ? Origin{} : source.origins[k],
                              region.depth(region.framed(c)));
+        if (message.size() < kBallsOfMessage) return;
+        deliver();
+        message.clear();
     };
     if (halo <= halo_) {
         const std::vector<std::uint32_t>& near = source.near_border;
@@ -40,6 +47,7 @@ void WindowedEngine::pack(std::uint32_t from, const Region& region, std::int32_t
     } else {
         for (std::uint32_t k = 0; k < source.records.size(); ++k) pack_one(k);
     }
+    deliver();
 }
 
 /// Adds what domain `self` holds and stays with it; the message gets what has left it for the halo.
@@ -87,19 +95,24 @@ std::vector<Time> WindowedEngine::ends_of_copies(std::int32_t halo, const Time& 
 /// copies are given up in time.
 void WindowedEngine::load(Workshop& w, std::size_t self, const Region& region, std::int32_t halo,
                           const Time& window_end, bool ends_early) const {
-    empty(w.message, w.own, w.copies, w.origins);
+    empty(w.own, w.copies, w.origins);
     w.loop->clear(region, window_start_);
-    for (std::uint32_t d = 0; d < domains_.size(); ++d) {
-        if (d == self)
-            add_residents(d, region, w);
-        else
-            pack(d, region, self == kAll ? kEverything : halo, w.message);
-    }
     const std::vector<Time> ends = ends_early ? ends_of_copies(halo, window_end) : std::vector{kNever};
-    for (const BallMessage& ball : w.message) {
-        (ball.depth == 0 ? w.own : w.copies).push_back(w.loop->size());
-        w.loop->add(ball.record, &ball.extra, ball.depth == 0, end_at(ends, ball.depth));
-        w.origins.push_back(ball.origin);
+    const auto add_message = [&] {
+        for (const BallMessage& ball : w.message) {
+            (ball.depth == 0 ? w.own : w.copies).push_back(w.loop->size());
+            w.loop->add(ball.record, &ball.extra, ball.depth == 0, end_at(ends, ball.depth));
+            w.origins.push_back(ball.origin);
+        }
+    };
+    for (std::uint32_t d = 0; d < domains_.size(); ++d) {
+        if (d == self) {
+            w.message.clear();
+            add_residents(d, region, w);
+            add_message();
+        } else {
+            pack(d, region, self == kAll ? kEverything : halo, w.message, add_message);
+        }
     }
 }
 
@@ -118,21 +131,26 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
     };
     for (const std::uint32_t i : w.copies) here(w.origins[i]) = i;
 
-    w.unknown.clear();
-    w.message.clear();
+    empty(w.unknown, w.arrivals, w.newcomers);
+    const auto renew = [&] {
+        for (const BallMessage& ball : w.message) {
+            const std::uint32_t place = std::exchange(here(ball.before), kNowhere);
+            w.arrivals.push_back({ball.origin, place, ball.depth == 0});
+            if (place != kNowhere) fetch(loop.records()[place]);
+        }
+        const Workshop::Arrival* arrival = w.arrivals.data() + (w.arrivals.size() - w.message.size());
+        for (const BallMessage& ball : w.message) {
+            const std::uint32_t place = (arrival++)->place;
+            if (place == kNowhere) {
+                w.newcomers.push_back(ball);
+                continue;
+            }
+            loop.renew(place, ball.record, ball.extra, ball.depth == 0, end_at(ends, ball.depth));
+            if (ball.record.next.time == kUnknown) w.unknown.push_back(place);
+        }
+    };
     for (std::uint32_t d = 0; d < domains_.size(); ++d)
-        if (d != self) pack(d, region, halo, w.message);
-    w.places.assign(w.message.size(), kNowhere);
-    for (std::size_t k = 0; k < w.message.size(); ++k) {
-        if (k + kFetchedAhead < w.message.size())
-            if (const std::uint32_t ahead = here(w.message[k + kFetchedAhead].before); ahead != kNowhere)
-                fetch(loop.records()[ahead]);
-        const BallMessage& ball = w.message[k];
-        std::uint32_t& place = here(ball.before);
-        if (place == kNowhere) continue;
-        loop.renew(place, ball.record, ball.extra, ball.depth == 0, end_at(ends, ball.depth));
-        w.places[k] = std::exchange(place, kNowhere);
-    }
+        if (d != self) pack(d, region, halo, w.message, renew);
     for (const std::uint32_t i : w.copies) {
         std::uint32_t& place = here(w.origins[i]);
         if (place == i) loop.remove(std::exchange(place, kNowhere));
@@ -160,14 +178,17 @@ void WindowedEngine::go_on(Workshop& w, std::size_t self, const Region& region, 
     std::erase(w.own, kNowhere);
     for (const std::uint32_t k : d.start.unknown)
         if (loop.id(d.start.places[k]) != kNowhere) w.unknown.push_back(d.start.places[k]);
-    for (std::size_t k = 0; k < w.message.size(); ++k) {
-        const BallMessage& ball = w.message[k];
-        std::uint32_t i = w.places[k];
-        if (i == kNowhere) i = loop.enter(ball.record, ball.extra, ball.depth == 0, end_at(ends, ball.depth));
+    auto newcomer = w.newcomers.begin();
+    for (const Workshop::Arrival& arrival : w.arrivals) {
+        std::uint32_t i = arrival.place;
+        if (i == kNowhere) {
+            const BallMessage& ball = *newcomer++;
+            i = loop.enter(ball.record, ball.extra, arrival.is_own, end_at(ends, ball.depth));
+            if (ball.record.next.time == kUnknown) w.unknown.push_back(i);
+        }
         if (w.origins.size() <= i) w.origins.resize(i + 1);
-        w.origins[i] = ball.origin;
-        (ball.depth == 0 ? w.own : w.copies).push_back(i);
-        if (ball.record.next.time == kUnknown) w.unknown.push_back(i);
+        w.origins[i] = arrival.origin;
+        (arrival.is_own ? w.own : w.copies).push_back(i);
     }
     loop.look_again(w.unknown);
     const auto after = std::ranges::partition_point(
@@ -222,7 +243,7 @@ void WindowedEngine::keep_outcome(DomainState& d, Workshop& w, const Time& windo
     d.in_turn = loop.in_turn(collisions);
     d.copied_collisions = loop.collisions_of_all - std::min(loop.collisions_of_all, collisions);
     d.copies.reserve(w.copies.size());
-    std::vector<std::uint32_t>& copy_of = w.places;
+    std::vector<std::uint32_t>& copy_of = w.copy_of;
     copy_of.assign(loop.size(), kNowhere);
     for (const std::uint32_t i : w.copies) {
         copy_of[i] = static_cast<std::uint32_t>(d.copies.size());

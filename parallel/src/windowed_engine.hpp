@@ -75,8 +75,9 @@ class WindowedEngine final : public Engine {
     void index(const DomainState& d, Roster& roster) const;
     class Index;
     void add_residents(std::uint32_t self, const Region& region, Workshop& w) const;
-    void pack(std::uint32_t from, const Region& region, std::int32_t halo,
-              std::vector<BallMessage>& message) const;
+    template <class F>
+    void pack(std::uint32_t from, const Region& region, std::int32_t halo, std::vector<BallMessage>& message,
+              F&& deliver) const;
     [[nodiscard]] std::vector<Time> ends_of_copies(std::int32_t halo, const Time& window_end) const;
     void go_on(Workshop& w, std::size_t self, const Region& region, std::int32_t halo,
                const Time& window_end) const;
