@@ -21,15 +21,15 @@ namespace carom {
 
 template <Acceleration A>
 void EventLoopOf<A>::advance_to(const Time& end, bool inclusive) {
-    while (epoch_ < end.epoch) {
+    while (!full_ && epoch_ < end.epoch) {
         run_in_parts(clock_.epoch_length(), false);
-        if (full_) return pass_on_notes();
+        if (full_) break;
         const double epochs = std::floor(queue_.first_key() / clock_.epoch_length());
         start_next_epoch(epochs < double(end.epoch - epoch_)
                              ? epoch_ + std::max(std::int64_t{1}, static_cast<std::int64_t>(epochs))
                              : end.epoch);
     }
-    run_in_parts(end.offset, inclusive);
+    if (!full_) run_in_parts(end.offset, inclusive);
     if (!full_) now_ = std::max(now_, end.offset);
     pass_on_notes();
 }
