@@ -184,11 +184,11 @@ class Runner {
         price.speed *= 1.0 + static_cast<double>(others_.size());
         const double kinetic = energy_ / (balls() - 1) * balls();  // N kT: the momentum is fixed at zero
         std::printf(
-            "discs=%.0f packing=%.2f collisions_per_second=%.4g events=%.2f Z=%.4f energy_change=%.1e ",
+            "discs=%.0f packing=%.2f collisions_per_second=%.4g events=%.2f Z=%.4f energy_change=%.1e "
+            "worlds=%zu ",
             balls(), packing, price.speed, price.events,
             1 + (world_.virial() - virial_) / (2 * kinetic * (world_.time() - time_)),
-            world_.energy() / energy_ - 1);
-        std::printf("worlds=%zu ", 1 + others_.size());
+            world_.energy() / energy_ - 1, 1 + others_.size());
         bench::print(world_, price, slices_.undisturbed());
     }
 
@@ -261,9 +261,8 @@ int main(int argc, char** argv) {
     const bool is_scene = std::string_view(argv[1]).ends_with(".json");
     std::vector<carom::bench::Team> teams;
     std::istringstream list(argc > 4 ? argv[4] : "0");
-    for (std::string part; std::getline(list, part, ',');) {
+    for (std::string part; std::getline(list, part, ',');)
         teams.push_back(carom::bench::read_team(part, static_cast<int>(number(5, 0))));
-    }
     try {
         if (is_scene)
             carom::bench::measure_scene(argv[1], number(2, 0), static_cast<int>(number(3, 0)),

@@ -292,20 +292,17 @@ void WindowedEngine::compare(DomainState& d) const {
         return mark >= 0 && d.touched[static_cast<std::size_t>(mark)] != 0;
     };
     std::vector<std::uint8_t> is_right(d.copies.size());
+    std::vector<std::vector<std::uint8_t>> followed(domains_.size());  // the same by the balls' origins
     for (std::size_t k = 0; k < d.copies.size(); ++k) {
         const CopyOutcome& copy = d.copies[k];
         const DomainState& holder = domains_[copy.origin.domain];
         is_right[k] = !copy.is_lost && copy.history == holder.outcomes[copy.origin.index].history;
+        std::vector<std::uint8_t>& of_holder = followed[copy.origin.domain];
+        if (of_holder.empty()) of_holder.resize(holder.outcomes.size());
+        of_holder[copy.origin.index] = is_right[k];
         if (is_right[k]) continue;
         if (const CellCoordinates& cell = holder.start.cells[copy.origin.index]; has_touched(cell))
             see(copy.origin, cell);
-    }
-    std::vector<std::vector<std::uint8_t>> followed(domains_.size());  // by the balls' origins
-    for (std::size_t k = 0; k < d.copies.size(); ++k) {
-        const Origin& origin = d.copies[k].origin;
-        std::vector<std::uint8_t>& of_holder = followed[origin.domain];
-        if (of_holder.empty()) of_holder.resize(domains_[origin.domain].outcomes.size());
-        of_holder[origin.index] = is_right[k];
     }
     for (const DomainState& other : domains_) {
         if (&other == &d || !d.region.meets(other.region)) continue;
